@@ -1,0 +1,56 @@
+# The three ways a target is made here: a library of src/, its unit tests, and a set of shaders
+# compiled into a library as text.
+
+add_library(lucerna_options INTERFACE)
+target_compile_options(lucerna_options INTERFACE
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+if(LUCERNA_SANITIZE)
+  target_compile_options(lucerna_options INTERFACE
+    -O1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(lucerna_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# lucerna_library(NAME SOURCES ... [DEPENDS public targets] [PRIVATE private targets] [SHADERS files])
+# makes the target lucerna_NAME from src/NAME. DEPENDS is the layer table of DESIGN made checkable.
+function(lucerna_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE;SHADERS" ${ARGN})
+  if(ARG_SHADERS)
+    lucerna_embed_shaders(${name} shader_source ${ARG_SHADERS})
+    list(APPEND ARG_SOURCES ${shader_source})
+  endif()
+  add_library(lucerna_${name} STATIC ${ARG_SOURCES})
+  target_include_directories(lucerna_${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
+  target_link_libraries(lucerna_${name} PUBLIC ${ARG_DEPENDS} PRIVATE lucerna_options ${ARG_PRIVATE})
+endfunction()
+
+# lucerna_test(NAME SOURCES ... [DEPENDS targets] [LABELS gl] [ENVIRONMENT A=B]) makes one GoogleTest
+# program and one CTest entry. Tests that need a GL driver carry the label "gl".
+function(lucerna_test name)
+  if(NOT LUCERNA_TESTS)
+    return()
+  endif()
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
+  add_executable(${name} ${ARG_SOURCES})
+  target_link_libraries(${name} PRIVATE lucerna_options ${ARG_DEPENDS} GTest::gmock_main)
+  target_compile_definitions(${name} PRIVATE
+    LUCERNA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LUCERNA_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  add_test(NAME ${name} COMMAND ${name})
+  set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900
+    ENVIRONMENT "${ARG_ENVIRONMENT}")
+endfunction()
+
+# Writes one .cpp that holds the text of the given shader files (paths relative to src/) and
+# registers them with gpu/shader_source.hpp under those paths.
+function(lucerna_embed_shaders name out_variable)
+  set(output ${CMAKE_CURRENT_BINARY_DIR}/${name}_shaders.cpp)
+  set(inputs)
+  foreach(shader IN LISTS ARGN)
+    list(APPEND inputs ${PROJECT_SOURCE_DIR}/src/${shader})
+  endforeach()
+  add_custom_command(OUTPUT ${output}
+    COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
+            "-DSHADERS=${ARGN}" -P ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
+    DEPENDS ${inputs} ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake VERBATIM)
+  set_property(GLOBAL APPEND PROPERTY LUCERNA_SHADERS ${ARGN})
+  set(${out_variable} ${output} PARENT_SCOPE)
+endfunction()

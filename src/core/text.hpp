@@ -1,0 +1,24 @@
+// Small text helpers for messages.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lucerna {
+
+// Restricted Damerau-Levenshtein distance (optimal string alignment), case-insensitive.
+int editDistance(std::string_view a, std::string_view b);
+
+// The nearest candidate if it is near enough to be a likely typo, else "".
+std::string closest(std::string_view word, std::span<const std::string> candidates);
+
+// " (did you mean 'X'?)" or "".
+std::string didYouMean(std::string_view word, std::span<const std::string> candidates);
+
+std::string join(std::span<const std::string> words, std::string_view separator = ", ");
+std::vector<std::string> split(std::string_view text, char separator);
+bool equalIgnoringCase(std::string_view a, std::string_view b);
+
+}  // namespace lucerna

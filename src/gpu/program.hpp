@@ -1,0 +1,66 @@
+// Shader programs: made from paths and defines by Device::program(), cached by both.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+#include "core/math/math.hpp"
+
+namespace lucerna::gpu {
+
+class Device;
+
+struct ProgramDesc {
+  std::string vertex, fragment;  // paths relative to src/; or
+  std::string compute;
+  std::map<std::string, std::string> defines;
+  bool operator<(const ProgramDesc& other) const {
+    return std::tie(vertex, fragment, compute, defines) <
+           std::tie(other.vertex, other.fragment, other.compute, other.defines);
+  }
+};
+
+// Uniforms by name; a name the program does not use is ignored (the compiler may drop it), a wrong
+// type asserts. Textures and blocks are bound by name at the draw.
+class Program {
+ public:
+  ~Program();
+  Program(const Program&) = delete;
+  Program& operator=(const Program&) = delete;
+
+  // False if it never compiled: draws with it do nothing, and Device::errors() has the reason.
+  bool usable() const { return id_ != 0; }
+  const ProgramDesc& desc() const { return desc_; }
+
+  void set(std::string_view name, float value) const;
+  void set(std::string_view name, int value) const;
+  void set(std::string_view name, bool value) const;
+  void set(std::string_view name, std::uint32_t value) const;
+  void set(std::string_view name, vec2 value) const;
+  void set(std::string_view name, vec3 value) const;
+  void set(std::string_view name, vec4 value) const;
+  void set(std::string_view name, ivec2 value) const;
+  void set(std::string_view name, const mat3& value) const;
+  void set(std::string_view name, const mat4& value) const;
+  void set(std::string_view name, std::span<const float> values) const;
+  void set(std::string_view name, std::span<const vec3> values) const;
+  void set(std::string_view name, std::span<const vec4> values) const;
+
+ private:
+  friend class Device;
+  friend class Commands;
+  Program() = default;
+  struct Reflection;
+  ProgramDesc desc_;
+  Device* device_ = nullptr;
+  std::uint32_t id_ = 0;
+  std::unique_ptr<Reflection> reflection_;
+};
+using ProgramPtr = std::shared_ptr<const Program>;
+
+}  // namespace lucerna::gpu

@@ -1,0 +1,87 @@
+// Runs a pipeline on a Device, frame after frame.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "graph/schedule.hpp"
+
+namespace lucerna::graph {
+
+// Pointers to the resources of the registry for one frame, by name.
+class Imports {
+ public:
+  template <PortData T>
+  void set(std::string name, const T& data) {
+    entries_[std::move(name)] = {typeid(T), const_cast<T*>(&data)};
+  }
+  void* find(std::string_view name, std::type_index type) const;
+
+ private:
+  struct Entry {
+    std::type_index type = typeid(void);
+    void* data = nullptr;
+  };
+  std::map<std::string, Entry, std::less<>> entries_;
+};
+
+struct FrameInput {
+  double time = 0, timeStep = 0;
+  std::uint64_t frame = 0, seed = 0;
+  bool cut = false;               // history is void: first frame, camera cut, new scene
+  bool sceneChanged = true;       // per-scene passes run again
+  Imports shared;                 // resources that all views share
+  std::span<const Imports> views; // one a view: its perView resources
+};
+
+// One step's cost in one frame.
+struct StepProfile {
+  std::string row;                // "GBuffer"; copies and fills are named "(copy) GBuffer.depth"
+  int view = 0;
+  double cpuMs = 0, gpuMs = 0;
+  gpu::Counters counters;
+  std::uint64_t textureBytes = 0; // of the textures it wrote
+};
+struct FrameProfile {
+  std::uint64_t frame = 0;
+  std::vector<StepProfile> steps;
+  double cpuMs = 0, gpuMs = 0;
+};
+
+class Executor {
+ public:
+  Executor(gpu::Device& device, const Registry& registry);
+  ~Executor();
+
+  // Validates, makes the passes and textures. Rows that stay keep their instance, textures their
+  // pool. On an error (ErrorKind::Pipeline, all faults in one message) nothing is rendered until the
+  // next success. Warnings are logged.
+  Status setPipeline(const Pipeline& pipeline, uvec2 outputSize,
+                     const std::vector<std::string>& kept = {});
+  // Parameters that rebuild nothing may change without setPipeline.
+  Status setParam(const std::string& row, const std::string& param, const Value& value);
+
+  // Runs all steps; after each view's steps calls onView(view, output) while its textures are alive.
+  // A shader that does not compile is an error (ErrorKind::Pipeline).
+  Status execute(const FrameInput& input,
+                 const std::function<void(int view, const gpu::Texture& output)>& onView);
+  // A kept value of the view just drawn; valid inside onView. Null if that is not a texture.
+  const gpu::Texture* kept(const std::string& name) const;
+
+  void setProfiling(bool on);
+  const FrameProfile& profile() const;  // of the last frame
+
+  const Plan& plan() const;
+  const Schedule& schedule() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lucerna::graph

@@ -1,0 +1,51 @@
+// The resource "scene": the scene's copy on the GPU beside the scene itself.
+//
+// All meshes share one vertex and one index buffer; an object's matrices and material index are in
+// the storage block `ObjectBlock`, materials in `MaterialBlock` (render/scene.glsl). The object's index
+// reaches the vertex shader as the instanced attribute `objectIndex`, through baseInstance.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "scene/bvh.hpp"
+#include "scene/scene.hpp"
+
+namespace lucerna::render {
+
+// What changed since the last frame; passes with caches read it.
+struct SceneChanges {
+  bool everything = true;                     // a new scene
+  std::vector<std::uint32_t> movedObjects;
+  bool lights = false, materials = false;
+};
+
+struct MeshRange {
+  std::uint32_t firstIndex = 0, indexCount = 0;
+  std::int32_t baseVertex = 0;
+};
+
+struct GpuScene {
+  static constexpr const char* kPortName = "Scene";
+  const scene::Scene* scene = nullptr;
+  SceneChanges changes;
+  scene::Bvh bvh;                             // over the objects' boxes; rebuilt when objects move
+  std::vector<MeshRange> meshes;              // as Scene::meshes
+  gpu::Buffer vertices, indices, objectIndices;
+  gpu::VertexInput input;
+  gpu::Buffer objects, materials;             // ObjectBlock, MaterialBlock
+  std::vector<gpu::Texture> textures;         // as Scene::textures, each uploaded as sRGB or linear as used
+  std::vector<gpu::Texture> linearTextures;   // those that are used as data and as colour: the data copy
+  std::vector<gpu::Sampler> samplers;         // as Scene::textures
+  gpu::Texture white, flatNormal;             // for unused slots
+  std::vector<bool> mirrored;                 // per object: its matrix flips orientation
+};
+
+// Uploads everything. The scene must outlive it.
+void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene);
+// After animate(): object matrices, boxes and BVH. Sets changes.movedObjects.
+void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::uint32_t> moved);
+
+}  // namespace lucerna::render
