@@ -24,7 +24,9 @@ function(lucerna_library name)
 endfunction()
 
 # lucerna_test(NAME SOURCES ... [DEPENDS targets] [LABELS gl] [ENVIRONMENT A=B]) makes one GoogleTest
-# program and one CTest entry. Tests that need a GL driver carry the label "gl".
+# program and one CTest entry. Tests that need a GL driver carry the label "gl"; the others are unit
+# tests, which the sanitized build runs too (target unit_tests).
+add_custom_target(unit_tests)
 function(lucerna_test name)
   if(NOT LUCERNA_TESTS)
     return()
@@ -34,6 +36,10 @@ function(lucerna_test name)
   target_link_libraries(${name} PRIVATE lucerna_options ${ARG_DEPENDS} GTest::gmock_main)
   target_compile_definitions(${name} PRIVATE
     LUCERNA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LUCERNA_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  if(NOT ARG_LABELS)
+    set(ARG_LABELS unit)
+    add_dependencies(unit_tests ${name})
+  endif()
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT 900
     ENVIRONMENT "${ARG_ENVIRONMENT}")
