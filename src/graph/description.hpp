@@ -1,5 +1,5 @@
-// What a pass is, as run-time data: the validator, panels, `--set`, JSON and JS, `lucerna pass show`,
-// generated docs and parameter sweeps all walk this. A typed pass makes it through PassInfo
+// What a pass is, as run-time data: the validator, panels, `--set`, JSON and JS, `lucerna pass
+// show`, generated docs and parameter sweeps all walk this. A typed pass makes it through PassInfo
 // (graph/pass_info.hpp).
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <typeindex>
 #include <vector>
 
@@ -27,10 +28,10 @@ struct ParamDescription {
   std::string name;
   ParamType type = ParamType::Float;
   Value defaultValue;
-  std::optional<double> min, max;     // of numbers, inclusive
-  std::string unit;                   // "m", "rad", "px", "EV", ...; "" for pure numbers
-  std::vector<std::string> choices;   // of Choice
-  std::size_t size = 1;               // numbers in a Color (3) or Vector
+  std::optional<double> min, max;    // of numbers, inclusive
+  std::string unit;                  // "m", "rad", "px", "EV", ...; "" for pure numbers
+  std::vector<std::string> choices;  // of Choice
+  std::size_t size = 1;              // numbers in a Color (3) or Vector
   Rebuild rebuild = Rebuild::Nothing;
   std::string help;
 };
@@ -49,47 +50,52 @@ struct TextureSpec {
 struct PortType {
   std::optional<TextureSpec> texture;
   std::type_index data = typeid(void);
-  std::string dataName;                              // "DrawLists"
-  std::function<std::shared_ptr<void>()> makeData;   // a new default-constructed one
-  std::string text() const;                          // for messages: "a 2D texture (Depth32F)"
+  std::string dataName;                             // "DrawLists"
+  std::function<std::shared_ptr<void>()> makeData;  // a new default-constructed one
+  std::string text() const;                         // for messages: "a 2D texture (Depth32F)"
 };
 
 // Size of an output, as a relation.
 struct SizeRule {
   enum class Kind { Output, Port, Absolute } kind = Kind::Output;
-  std::string port;               // Kind::Port: an input of the same pass
-  float scale = 1.f;              // of the size referred to, rounded up, at least 1
-  int width = 1, height = 1;      // Kind::Absolute
+  std::string port;           // Kind::Port: an input of the same pass
+  float scale = 1.f;          // of the size referred to, rounded up, at least 1
+  int width = 1, height = 1;  // Kind::Absolute
 };
 
 // What readers get from an output whose pass is disabled.
 struct StandIn {
   enum class Kind { None, Fill, PassThrough } kind = Kind::None;
   vec4 fill{0.f};
-  std::string input;              // PassThrough: the input whose value the output repeats
+  std::string input;  // PassThrough: the input whose value the output repeats
 };
 
 inline constexpr int kWholeImage = -1;
 
 struct PortDescription {
-  std::string name;               // inputs and outputs are separate name spaces: a filter reads and
-                                  // writes "color"; InOut is both
+  std::string name;  // inputs and outputs are separate name spaces: a filter reads and
+                     // writes "color"; InOut is both
   Direction direction = Direction::In;
   PortType type;
-  SizeRule size;                  // Out
-  StandIn standIn;                // Out
-  bool optional = false;          // In: may stay unbound. Out: not made when nobody reads it
-  bool history = false;           // In: last frame's value of the port it is bound to; unbound after a cut
-  bool persistent = false;        // Out: kept between frames (a cache of the pass)
-  int halo = 0;                   // In: pixels read around the one written; kWholeImage
+  SizeRule size;          // Out
+  StandIn standIn;        // Out
+  bool optional = false;  // In: may stay unbound. Out: not made when nobody reads it
+  bool history = false;   // In: last frame's value of the port it is bound to; unbound after a cut
+  bool persistent = false;  // Out: kept between frames (a cache of the pass)
+  int halo = 0;             // In: pixels read around the one written; kWholeImage
   std::string help;
 };
 
 enum class Frequency { PerScene, PerViewGroup, PerView };
 
+const char* nameOf(ParamType type);       // "float"
+const char* nameOf(Direction direction);  // "in", "out", "inout"
+const char* nameOf(Rebuild rebuild);      // "nothing"
+const char* nameOf(Frequency frequency);  // "per view"
+
 struct PassDescription {
-  std::string type;               // "ScreenSpaceAo"
-  std::string summary;            // one sentence
+  std::string type;     // "ScreenSpaceAo"
+  std::string summary;  // one sentence
   std::vector<ParamDescription> params;
   std::vector<PortDescription> ports;
   Frequency frequency = Frequency::PerView;

@@ -33,19 +33,19 @@ class Imports {
 struct FrameInput {
   double time = 0, timeStep = 0;
   std::uint64_t frame = 0, seed = 0;
-  bool cut = false;               // history is void: first frame, camera cut, new scene
-  bool sceneChanged = true;       // per-scene passes run again
-  Imports shared;                 // resources that all views share
-  std::span<const Imports> views; // one a view: its perView resources
+  bool cut = false;                // history is void: first frame, camera cut, new scene
+  bool sceneChanged = true;        // per-scene passes run again
+  Imports shared;                  // resources that all views share
+  std::span<const Imports> views;  // one a view: its perView resources
 };
 
 // One step's cost in one frame.
 struct StepProfile {
-  std::string row;                // "GBuffer"; copies and fills are named "(copy) GBuffer.depth"
+  std::string row;  // "GBuffer"; copies and fills are named "(copy) GBuffer.depth"
   int view = 0;
   double cpuMs = 0, gpuMs = 0;
   gpu::Counters counters;
-  std::uint64_t textureBytes = 0; // of the textures it wrote
+  std::uint64_t textureBytes = 0;  // of the textures it wrote
 };
 struct FrameProfile {
   std::uint64_t frame = 0;
@@ -59,15 +59,15 @@ class Executor {
   ~Executor();
 
   // Validates, makes the passes and textures. Rows that stay keep their instance, textures their
-  // pool. On an error (ErrorKind::Pipeline, all faults in one message) nothing is rendered until the
-  // next success. Warnings are logged.
+  // pool. On an error (ErrorKind::Pipeline, all faults in one message) nothing is rendered until
+  // the next success. Warnings are logged.
   Status setPipeline(const Pipeline& pipeline, uvec2 outputSize,
                      const std::vector<std::string>& kept = {});
   // Parameters that rebuild nothing may change without setPipeline.
   Status setParam(const std::string& row, const std::string& param, const Value& value);
 
-  // Runs all steps; after each view's steps calls onView(view, output) while its textures are alive.
-  // A shader that does not compile is an error (ErrorKind::Pipeline).
+  // Runs all steps; after each view's steps calls onView(view, output) while its textures are
+  // alive. A shader that does not compile is an error (ErrorKind::Pipeline).
   Status execute(const FrameInput& input,
                  const std::function<void(int view, const gpu::Texture& output)>& onView);
   // A kept value of the view just drawn; valid inside onView. Null if that is not a texture.

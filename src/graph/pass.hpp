@@ -16,17 +16,17 @@ namespace lucerna::graph {
 // The small context that execute receives beside its parameters and ports.
 struct PassContext {
   gpu::Device& device;
-  double time = 0;         // s, of the scene
-  double timeStep = 0;     // s since the last frame
+  double time = 0;      // s, of the scene
+  double timeStep = 0;  // s since the last frame
   std::uint64_t frame = 0;
-  int view = 0;            // index of the view being drawn
+  int view = 0;  // index of the view being drawn
   int viewCount = 1;
-  uvec2 outputSize{0};     // pixels of the view's output
+  uvec2 outputSize{0};  // pixels of the view's output
   std::uint64_t seed = 0;
 };
 
-// One bound port: exactly one pointer is set, none if unbound. For data, `data` points to the T that
-// the port's type names.
+// One bound port: exactly one pointer is set, none if unbound. For data, `data` points to the T
+// that the port's type names.
 struct BoundPort {
   const PortDescription* port = nullptr;
   gpu::Texture* texture = nullptr;

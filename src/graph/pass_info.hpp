@@ -1,5 +1,5 @@
-// The typed front end: a pass is a class with Params, Ports, describe() and execute(); this turns it
-// into a PassType.
+// The typed front end: a pass is a class with Params, Ports, describe() and execute(); this turns
+// it into a PassType.
 //
 //   class Example {
 //    public:
@@ -9,7 +9,8 @@
 //       d.pass("Example", "One sentence.");
 //       d.param("radius", &Params::radius).range(0, 10).unit("m").help("...");
 //       d.read("depth", &Ports::depth).texture(Format::Depth32F);
-//       d.write("mask", &Ports::mask).texture(Format::R8Unorm).sizeOf("depth").whenDisabled(vec4(1));
+//       d.write("mask",
+//       &Ports::mask).texture(Format::R8Unorm).sizeOf("depth").whenDisabled(vec4(1));
 //     }
 //     explicit Example(gpu::Device& device);
 //     void execute(PassContext& context, const Params& params, const Ports& ports);
@@ -21,6 +22,7 @@
 
 #include <concepts>
 #include <functional>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -37,16 +39,35 @@ concept PortData = requires {
   { T::kPortName } -> std::convertible_to<const char*>;
 };
 
+// The number of a choice's name; none if it is no name of this parameter.
+std::optional<std::int64_t> choiceIndex(const ParamDescription& description, const Value& value);
+
+// Builders point into the description: use them in the statement that made them.
 class ParamBuilder {
  public:
   explicit ParamBuilder(ParamDescription& d) : d_(&d) {}
-  ParamBuilder& range(double min, double max) { d_->min = min, d_->max = max; return *this; }
-  ParamBuilder& unit(std::string unit) { d_->unit = std::move(unit); return *this; }
-  ParamBuilder& help(std::string help) { d_->help = std::move(help); return *this; }
-  ParamBuilder& rebuilds(Rebuild rebuild) { d_->rebuild = rebuild; return *this; }
+  ParamBuilder& range(double min, double max) {
+    d_->min = min, d_->max = max;
+    return *this;
+  }
+  ParamBuilder& unit(std::string unit) {
+    d_->unit = std::move(unit);
+    return *this;
+  }
+  ParamBuilder& help(std::string help) {
+    d_->help = std::move(help);
+    return *this;
+  }
+  ParamBuilder& rebuilds(Rebuild rebuild) {
+    d_->rebuild = rebuild;
+    return *this;
+  }
   // Of an enum member, in the order of its values (0, 1, ...); of a std::string, any order.
   ParamBuilder& choices(std::vector<std::string> names);
-  ParamBuilder& color() { d_->type = ParamType::Color; return *this; }
+  ParamBuilder& color() {
+    d_->type = ParamType::Color;
+    return *this;
+  }
 
  private:
   ParamDescription* d_;
@@ -56,7 +77,9 @@ class PortBuilder {
  public:
   explicit PortBuilder(PortDescription& d) : d_(&d) {}
   template <typename... Formats>
-  PortBuilder& texture(Formats... formats) { return spec(gpu::TextureKind::Plain2D, {formats...}); }
+  PortBuilder& texture(Formats... formats) {
+    return spec(gpu::TextureKind::Plain2D, {formats...});
+  }
   template <typename... Formats>
   PortBuilder& textureArray(int layers, Formats... formats) {
     spec(gpu::TextureKind::Array2D, {formats...});
@@ -64,19 +87,40 @@ class PortBuilder {
     return *this;
   }
   PortBuilder& spec(gpu::TextureKind kind, std::vector<gpu::Format> formats);
-  PortBuilder& samples(int count) { d_->type.texture->samples = count; return *this; }
-  PortBuilder& levels(int count) { d_->type.texture->levels = count; return *this; }
+  PortBuilder& samples(int count) {
+    d_->type.texture->samples = count;
+    return *this;
+  }
+  PortBuilder& levels(int count) {
+    d_->type.texture->levels = count;
+    return *this;
+  }
   // Outputs: size of an input (times scale), of the output, or absolute.
   PortBuilder& sizeOf(std::string input, float scale = 1.f);
   PortBuilder& sizeOfOutput(float scale = 1.f);
   PortBuilder& size(int width, int height);
   PortBuilder& whenDisabled(vec4 fill);
   PortBuilder& passesThrough(std::string input);  // when disabled
-  PortBuilder& optional() { d_->optional = true; return *this; }
-  PortBuilder& history() { d_->history = true; return *this; }
-  PortBuilder& persistent() { d_->persistent = true; return *this; }
-  PortBuilder& halo(int pixels) { d_->halo = pixels; return *this; }
-  PortBuilder& help(std::string help) { d_->help = std::move(help); return *this; }
+  PortBuilder& optional() {
+    d_->optional = true;
+    return *this;
+  }
+  PortBuilder& history() {
+    d_->history = true;
+    return *this;
+  }
+  PortBuilder& persistent() {
+    d_->persistent = true;
+    return *this;
+  }
+  PortBuilder& halo(int pixels) {
+    d_->halo = pixels;
+    return *this;
+  }
+  PortBuilder& help(std::string help) {
+    d_->help = std::move(help);
+    return *this;
+  }
 
  private:
   PortDescription* d_;
@@ -108,10 +152,13 @@ class PassInfo {
   void bind(Ports& ports, std::span<const BoundPort> bound) const;
 
  private:
+  template <typename T, typename Member>
+  PortBuilder port(std::string name, Direction direction, Member member);
+
   Params values_;
   PassDescription description_;
-  std::vector<std::function<void(Params&, const Value&)>> setters_;          // as description_.params
-  std::vector<std::function<void(Ports&, const BoundPort&)>> binders_;       // as description_.ports
+  std::vector<std::function<void(Params&, const Value&)>> setters_;     // as description_.params
+  std::vector<std::function<void(Ports&, const BoundPort&)>> binders_;  // as description_.ports
 };
 
 // A PassType of a class as described above.

@@ -19,16 +19,17 @@ namespace lucerna::graph {
 struct PassRow {
   std::string name, type;
   bool enabled = true;
-  std::map<std::string, std::string> reads;  // input port -> "Row.port", or "Row" for the port of the same name
+  std::map<std::string, std::string>
+      reads;  // input port -> "Row.port", or "Row" for the port of the same name
   ParamValues params;
-  std::string place;                         // "deferred.js:12" or "row 3"; for messages
+  std::string place;  // "deferred.js:12" or "row 3"; for messages
 };
 
 struct Pipeline {
   std::string name;
-  std::string output;                        // "Row.port" or ""
+  std::string output;  // "Row.port" or ""
   std::vector<PassRow> passes;
-  std::string source;                        // file, for messages
+  std::string source;  // file, for messages
 };
 
 // Errors (ErrorKind::Pipeline) list every fault of form, each with its place.
@@ -37,8 +38,8 @@ std::string toJson(const Pipeline& pipeline);
 
 class Registry;
 
-// "Pass.param=value" and "Pass.enabled=false" of --set. Errors (ErrorKind::Usage) say which rows and
-// parameters there are.
+// "Pass.param=value" and "Pass.enabled=false" of --set. Errors (ErrorKind::Usage) say which rows
+// and parameters there are.
 Status applySetting(Pipeline& pipeline, const Registry& registry, const std::string& setting);
 
 }  // namespace lucerna::graph

@@ -1,4 +1,5 @@
-// The pass types that pipelines may name, and the resources that the application gives to all passes.
+// The pass types that pipelines may name, and the resources that the application gives to all
+// passes.
 #pragma once
 
 #include <map>
@@ -21,7 +22,9 @@ struct ResourceDescription {
 class Registry {
  public:
   template <typename Pass>
-  void add() { add(makePassType<Pass>()); }
+  void add() {
+    add(makePassType<Pass>());
+  }
   void add(std::unique_ptr<PassType> type);
   void addResource(ResourceDescription resource);
   template <PortData T>

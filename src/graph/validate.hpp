@@ -1,4 +1,5 @@
-// Checks a pipeline against the registry and a driver's capabilities, and resolves its wiring. No GL.
+// Checks a pipeline against the registry and a driver's capabilities, and resolves its wiring. No
+// GL.
 #pragma once
 
 #include <optional>
@@ -12,9 +13,24 @@
 namespace lucerna::graph {
 
 enum class FaultKind {
-  UnknownPass, UnknownPort, UnknownParameter, MissingInput, TypeMismatch, FormatMismatch,
-  ReadBeforeWrite, Cycle, DuplicateName, ValueOutOfRange, WrongValueType, OutputNeverRead,
-  DisabledWithoutStandIn, ProducerChanged, MissingFeature, UnsupportedFormat, BadOutput, EmptyPipeline,
+  UnknownPass,
+  UnknownPort,
+  UnknownParameter,
+  MissingInput,
+  TypeMismatch,
+  FormatMismatch,
+  ReadBeforeWrite,
+  Cycle,
+  DuplicateName,
+  ValueOutOfRange,
+  WrongValueType,
+  OutputNeverRead,
+  DisabledWithoutStandIn,
+  ProducerChanged,
+  MissingFeature,
+  UnsupportedFormat,
+  BadOutput,
+  EmptyPipeline,
   WrongFrequency,
 };
 enum class Severity { Warning, Error };
@@ -23,7 +39,7 @@ enum class Severity { Warning, Error };
 struct Fault {
   FaultKind kind;
   Severity severity = Severity::Error;
-  std::string place;    // "deferred.js:12, pass 'Ao', input 'depth'"
+  std::string place;  // "deferred.js:12, pass 'Ao', input 'depth'"
   std::string found, wanted, remedy;
   std::string text() const;
 };
@@ -31,8 +47,9 @@ struct Fault {
 // Where an input's value comes from.
 struct Source {
   enum class Kind { Unbound, Output, Resource, Fill } kind = Kind::Unbound;
-  std::size_t row = 0;       // Output: index in Pipeline::passes; Fill: the disabled row it stands in for
-  std::string port;          // Output: its output port; Resource: its name
+  std::size_t row =
+      0;             // Output: index in Pipeline::passes; Fill: the disabled row it stands in for
+  std::string port;  // Output: its output port; Resource: its name
   vec4 fill{0.f};
   PortType type;
 };
@@ -44,9 +61,9 @@ struct ResolvedInput {
 };
 
 struct ResolvedRow {
-  std::size_t row = 0;                 // index in Pipeline::passes
+  std::size_t row = 0;  // index in Pipeline::passes
   PassDescription description;
-  std::vector<ResolvedInput> inputs;   // In and InOut ports, in the description's order
+  std::vector<ResolvedInput> inputs;  // In and InOut ports, in the description's order
   bool culled = false;
 };
 
@@ -54,14 +71,14 @@ struct ResolvedRow {
 struct Plan {
   std::vector<ResolvedRow> rows;
   Source output;
-  std::vector<Source> kept;            // further values that must survive to the frame's end
+  std::vector<Source> kept;  // further values that must survive to the frame's end
 };
 
 struct Validation {
-  std::vector<Fault> faults;           // errors and warnings, in the order of the rows
-  std::optional<Plan> plan;            // absent if there is an error
+  std::vector<Fault> faults;  // errors and warnings, in the order of the rows
+  std::optional<Plan> plan;   // absent if there is an error
   bool ok() const { return plan.has_value(); }
-  std::string text() const;            // all faults, one paragraph each
+  std::string text() const;  // all faults, one paragraph each
 };
 
 // kept: further outputs wanted beside the pipeline's own ("GBuffer.depth"), which also keep their
