@@ -1,0 +1,94 @@
+"""Renders a scene with Blender's Cycles from a camera that `lucerna render` was given, for a look side
+by side. Direct light only, as the passes do; Blender is not a dependency of Lucerna.
+
+  blender -b --factory-startup -P tools/blender_picture.py -- SCENE CAMERA.json OUT.png [WxH] [SAMPLES]
+
+CAMERA.json: {"position": [x, y, z], "target": [x, y, z], "fovY": degrees}, y up, metres.
+A scene without lights gets the headlight and ambient light that lucerna gives it.
+"""
+import json
+import math
+import os
+import sys
+
+import bpy
+from mathutils import Vector
+
+HEADLIGHT = math.pi * 0.8  # irradiance, as scene::complete()
+AMBIENT = 0.2
+
+
+def from_y_up(p):
+    return Vector((p[0], -p[2], p[1]))
+
+
+def load(path):
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    extension = os.path.splitext(path)[1].lower()
+    if extension in (".gltf", ".glb"):
+        bpy.ops.import_scene.gltf(filepath=path, export_import_convert_lighting_mode="COMPAT")
+    elif extension == ".obj":
+        bpy.ops.wm.obj_import(filepath=path, forward_axis="NEGATIVE_Z", up_axis="Y")
+    elif extension == ".ply":
+        bpy.ops.import_mesh.ply(filepath=path)
+    else:
+        sys.exit(f"{path}: this script imports glTF, OBJ and PLY")
+
+
+def place_camera(camera):
+    data = bpy.data.cameras.new("lucerna")
+    data.sensor_fit = "VERTICAL"
+    data.angle = math.radians(camera["fovY"])
+    data.clip_start, data.clip_end = 0.01, 1e5
+    item = bpy.data.objects.new("lucerna", data)
+    item.location = from_y_up(camera["position"])
+    towards = from_y_up(camera["target"]) - item.location
+    item.rotation_euler = towards.to_track_quat("-Z", "Y").to_euler()
+    bpy.context.collection.objects.link(item)
+    bpy.context.scene.camera = item
+    return item
+
+
+def light(camera_item):
+    world = bpy.data.worlds.new("world")
+    world.use_nodes = True
+    background = world.node_tree.nodes["Background"]
+    bpy.context.scene.world = world
+    if any(item.type == "LIGHT" for item in bpy.data.objects):
+        background.inputs["Color"].default_value = (0, 0, 0, 1)
+        return
+    background.inputs["Color"].default_value = (AMBIENT, AMBIENT, AMBIENT, 1)
+    sun = bpy.data.lights.new("headlight", "SUN")
+    sun.energy, sun.angle = HEADLIGHT, 0
+    sun.use_shadow = False
+    item = bpy.data.objects.new("headlight", sun)
+    item.rotation_euler = camera_item.rotation_euler
+    bpy.context.collection.objects.link(item)
+
+
+def main():
+    scene_path, camera_path, out, *rest = sys.argv[sys.argv.index("--") + 1:]
+    width, height = map(int, (rest[0] if rest else "640x360").split("x"))
+    samples = int(rest[1]) if len(rest) > 1 else 16
+    load(os.path.abspath(scene_path))
+    with open(camera_path, encoding="utf-8") as file:
+        item = place_camera(json.load(file))
+    light(item)
+    for lamp in bpy.data.lights:
+        lamp.use_shadow = False
+        lamp.cycles.cast_shadow = False
+    scene = bpy.context.scene
+    scene.render.engine = "CYCLES"
+    scene.cycles.samples = samples
+    scene.cycles.use_denoising = False
+    scene.cycles.max_bounces = 0
+    scene.cycles.transparent_max_bounces = 16
+    scene.render.resolution_x, scene.render.resolution_y = width, height
+    scene.render.resolution_percentage = 100
+    scene.view_settings.view_transform = "Standard"
+    scene.render.image_settings.file_format = "PNG"
+    scene.render.filepath = os.path.abspath(out)
+    bpy.ops.render.render(write_still=True)
+
+
+main()
