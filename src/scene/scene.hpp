@@ -136,5 +136,7 @@ void makeTangents(Mesh& mesh, int texCoord);
 std::uint32_t addNode(Scene& scene, Node node);
 // Adds a node with the given world placement and no parent.
 std::uint32_t addNode(Scene& scene, std::string name, const mat4& worldFromNode);
+// Sets translation, rotation and scale from a matrix, or `matrix` itself where they cannot express it.
+void setLocalTransform(Node& node, const mat4& parentFromNode);
 
 }  // namespace lucerna::scene

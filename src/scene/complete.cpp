@@ -1,0 +1,69 @@
+// What a viewer expects where a file is silent.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/fit_camera.hpp"
+#include "scene/scene.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+// A head-on white surface shows 0.8 of its albedo by the headlight and 0.2 by the ambient light.
+constexpr float kHeadlightBrightness = 0.8f;
+constexpr float kDefaultAmbient = 0.2f;
+
+void addDefaultMaterial(Scene& scene) {
+  std::uint32_t material = kNone;
+  for (Object& object : scene.objects) {
+    if (object.material != kNone) continue;
+    if (material == kNone) {
+      material = static_cast<std::uint32_t>(scene.materials.size());
+      Material grey;
+      grey.name = "default";
+      grey.albedo = vec4(vec3(0.8f), 1.f);
+      grey.metallic = 0.f;
+      scene.materials.push_back(grey);
+    }
+    object.material = material;
+  }
+}
+
+void addBounds(Mesh& mesh) {
+  mesh.bounds = {};
+  for (const std::uint32_t index : mesh.indices) mesh.bounds.grow(mesh.positions[index]);
+}
+
+void addTangents(Scene& scene) {
+  for (const Object& object : scene.objects) {
+    Mesh& mesh = scene.meshes[object.mesh];
+    const TextureSlot& slot = scene.materials[object.material].normalTexture;
+    if (!slot.used() || !mesh.tangents.empty() || mesh.texCoords[slot.texCoord].empty()) continue;
+    makeTangents(mesh, slot.texCoord);
+  }
+}
+
+void addHeadlight(Scene& scene) {
+  Light light;
+  light.name = "headlight";
+  light.kind = LightKind::Directional;
+  light.intensity = kHeadlightBrightness * glm::pi<float>();
+  light.node = scene.cameras.front().node;
+  scene.lights.push_back(light);
+  scene.ambient = glm::max(scene.ambient, vec3(kDefaultAmbient));
+}
+
+}  // namespace
+
+void complete(Scene& scene) {
+  addDefaultMaterial(scene);
+  for (Mesh& mesh : scene.meshes) {
+    if (mesh.normals.empty()) makeNormals(mesh);
+    if (mesh.bounds.empty()) addBounds(mesh);
+  }
+  addTangents(scene);
+  updateTransforms(scene);
+  if (scene.cameras.empty()) addFittingCamera(scene);
+  if (scene.lights.empty()) addHeadlight(scene);
+}
+
+}  // namespace lucerna::scene

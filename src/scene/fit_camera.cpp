@@ -1,0 +1,134 @@
+#include "scene/fit_camera.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+
+#include "core/parallel.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+constexpr float kFovY = 0.9f;                  // rad
+constexpr float kNarrowestAspect = 4.f / 3.f;  // the box fits outputs at least this wide
+constexpr int kDirections = 16;                // around the horizon
+constexpr float kPi = glm::pi<float>();
+
+struct Sight {
+  float distance = std::numeric_limits<float>::infinity();  // m to the first surface
+  bool front = false;                                       // it faces the eye
+};
+using Horizon = std::array<Sight, kDirections>;
+
+vec3 direction(int i) {
+  const float angle = 2.f * kPi * static_cast<float>(i) / kDirections;
+  return {std::cos(angle), 0.f, std::sin(angle)};
+}
+
+// Moeller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", 1997, for rays of one
+// origin.
+void look(Horizon& horizon, vec3 eye, const std::array<vec3, 3>& corners) {
+  if ((corners[0].y > eye.y) == (corners[1].y > eye.y) &&
+      (corners[0].y > eye.y) == (corners[2].y > eye.y))
+    return;  // above or below the horizon
+  const vec3 edge1 = corners[1] - corners[0];
+  const vec3 edge2 = corners[2] - corners[0];
+  const vec3 toEye = eye - corners[0];
+  const vec3 q = glm::cross(toEye, edge1);
+  const float distanceTimesDet = glm::dot(edge2, q);
+  for (int i = 0; i < kDirections; ++i) {
+    const vec3 ray = direction(i);
+    const vec3 p = glm::cross(ray, edge2);
+    const float det = glm::dot(edge1, p);
+    if (det == 0.f) continue;
+    const float u = glm::dot(toEye, p) / det;
+    const float v = glm::dot(ray, q) / det;
+    const float distance = distanceTimesDet / det;
+    if (u < 0.f || v < 0.f || u + v > 1.f || distance <= 0.f) continue;
+    if (distance < horizon[i].distance) horizon[i] = {distance, det > 0.f};
+  }
+}
+
+Horizon lookAround(const Scene& scene, vec3 eye) {
+  Horizon horizon;
+  std::mutex mutex;
+  for (const Object& object : scene.objects) {
+    if (object.boundsW.min.y > eye.y || object.boundsW.max.y < eye.y) continue;
+    const Mesh& mesh = scene.meshes[object.mesh];
+    const mat4& worldFromObject = scene.nodes[object.node].worldFromNode;
+    parallelFor(mesh.triangleCount(), 1u << 16, [&](std::size_t begin, std::size_t end) {
+      Horizon own;
+      for (std::size_t t = begin; t < end; ++t) {
+        std::array<vec3, 3> corners;
+        for (std::size_t k = 0; k < 3; ++k)
+          corners[k] = vec3(worldFromObject * vec4(mesh.positions[mesh.indices[3 * t + k]], 1.f));
+        look(own, eye, corners);
+      }
+      const std::lock_guard lock(mutex);
+      for (int i = 0; i < kDirections; ++i)
+        if (own[i].distance < horizon[i].distance) horizon[i] = own[i];
+    });
+  }
+  return horizon;
+}
+
+void addCamera(Scene& scene, vec3 eye, vec3 target) {
+  Camera camera;
+  camera.name = "default";
+  camera.fovY = kFovY;
+  camera.node =
+      addNode(scene, "default camera", glm::inverse(glm::lookAt(eye, target, vec3(0.f, 1.f, 0.f))));
+  scene.cameras.push_back(camera);
+}
+
+// The nearest eye in the given direction from the box's centre that sees all eight corners.
+vec3 eyeOutside(const Aabb& box, vec3 toEye) {
+  const vec3 right = glm::normalize(glm::cross(vec3(0.f, 1.f, 0.f), toEye));
+  const vec3 up = glm::cross(toEye, right);
+  const float tanY = std::tan(0.5f * kFovY);
+  const float tanX = tanY * kNarrowestAspect;
+  float distance = 0.f;
+  for (int i = 0; i < 8; ++i) {
+    const vec3 sign((i & 1) ? 1.f : -1.f, (i & 2) ? 1.f : -1.f, (i & 4) ? 1.f : -1.f);
+    const vec3 corner = 0.5f * sign * box.extent();
+    const float needed =
+        std::max(std::abs(glm::dot(corner, right)) / tanX, std::abs(glm::dot(corner, up)) / tanY);
+    distance = std::max(distance, needed + glm::dot(corner, toEye));
+  }
+  return box.center() + toEye * std::max(1.05f * distance, 1e-3f);
+}
+
+}  // namespace
+
+void addFittingCamera(Scene& scene) {
+  const Aabb box = scene.boundsW();
+  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f));
+
+  // Inside: from the middle most sight lines end at the front of a wall. From the middle of a
+  // solid thing they end at back faces.
+  vec3 eye = box.center();
+  eye.y = box.min.y + 0.3f * box.extent().y;
+  const Horizon horizon = lookAround(scene, eye);
+  const auto walls =
+      std::count_if(horizon.begin(), horizon.end(), [](const Sight& sight) { return sight.front; });
+  if (walls < kDirections * 3 / 4)
+    return addCamera(scene, eyeOutside(box, glm::normalize(vec3(0.5f, 0.45f, 1.f))), box.center());
+
+  // Along the longest free line through the middle, from near its one end.
+  int best = 0;
+  float longest = 0.f;
+  for (int i = 0; i < kDirections / 2; ++i) {
+    const float behind = horizon[i + kDirections / 2].distance;
+    const float length = std::min(horizon[i].distance + behind, box.diagonal());
+    if (length > longest) {
+      longest = length;
+      best = i;
+    }
+  }
+  const float back = std::min(horizon[best].distance, box.diagonal());
+  eye += direction(best) * (0.8f * back);
+  addCamera(scene, eye, eye - direction(best));
+}
+
+}  // namespace lucerna::scene
