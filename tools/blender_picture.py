@@ -12,10 +12,13 @@ import os
 import sys
 
 import bpy
+import numpy
 from mathutils import Vector
 
+numpy.bool = bool  # Debian's Blender 3.4 still uses the alias that Debian's NumPy 1.24 dropped
 HEADLIGHT = math.pi * 0.8  # irradiance, as scene::complete()
 AMBIENT = 0.2
+LUMENS_PER_WATT = 683
 
 
 def from_y_up(p):
@@ -26,7 +29,9 @@ def load(path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     extension = os.path.splitext(path)[1].lower()
     if extension in (".gltf", ".glb"):
-        bpy.ops.import_scene.gltf(filepath=path, export_import_convert_lighting_mode="COMPAT")
+        bpy.ops.import_scene.gltf(filepath=path)
+        for lamp in bpy.data.lights:
+            lamp.energy *= LUMENS_PER_WATT  # the importer turns candela and lux into watts
     elif extension == ".obj":
         bpy.ops.wm.obj_import(filepath=path, forward_axis="NEGATIVE_Z", up_axis="Y")
     elif extension == ".ply":
