@@ -22,24 +22,33 @@ spdlog::logger& logger() {
 
 spdlog::level::level_enum spdlogLevel(Level level) {
   switch (level) {
-    case Level::Debug: return spdlog::level::debug;
-    case Level::Info: return spdlog::level::info;
-    case Level::Warning: return spdlog::level::warn;
-    case Level::Error: return spdlog::level::err;
-    case Level::Off: return spdlog::level::off;
+    case Level::Debug:
+      return spdlog::level::debug;
+    case Level::Info:
+      return spdlog::level::info;
+    case Level::Warning:
+      return spdlog::level::warn;
+    case Level::Error:
+      return spdlog::level::err;
+    case Level::Off:
+      return spdlog::level::off;
   }
   return spdlog::level::off;
 }
 
 }  // namespace
 
-void setLevel(Level level) { logger().set_level(spdlogLevel(level)); }
+void setLevel(Level level) {
+  logger().set_level(spdlogLevel(level));
+}
 
 void write(Level level, std::string_view message) {
   if (level >= Level::Warning) ++warnings;
   logger().log(spdlogLevel(level), "{}", message);
 }
 
-int warningCount() { return warnings; }
+int warningCount() {
+  return warnings;
+}
 
 }  // namespace lucerna::log

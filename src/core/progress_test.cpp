@@ -1,0 +1,38 @@
+#include "core/progress.hpp"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+
+namespace lucerna {
+namespace {
+
+TEST(Progress, ShortWorkAndHiddenWorkPrintNothing) {
+  testing::internal::CaptureStderr();
+  {
+    Progress quick("quick", 10);
+    for (int i = 0; i < 10; ++i) quick.advance();
+  }
+  Progress::setVisible(false);
+  {
+    Progress hidden("hidden", 10);
+    hidden.advance(10);
+  }
+  Progress::setVisible(true);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST(Progress, PrintsALineEveryFiveSecondsWithoutATerminal) {
+  testing::internal::CaptureStderr();
+  {
+    Progress slow("slow", 4);
+    slow.advance(1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5050));
+    slow.advance(1);
+    slow.advance(1);
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "slow:  50 %  ETA 0:05\n");
+}
+
+}  // namespace
+}  // namespace lucerna
