@@ -45,17 +45,20 @@ function(lucerna_test name)
     ENVIRONMENT "${ARG_ENVIRONMENT}")
 endfunction()
 
-# Writes one .cpp that holds the text of the given shader files (paths relative to src/) and
-# registers them with gpu/shader_source.hpp under those paths.
+# Writes one .cpp that holds the text of the given shader files (paths relative to src/). Declare and
+# use its one function as
+#   std::span<const gpu::EmbeddedShader> lucerna::gpu::embeddedShaders_NAME();
+#   device.shaderSources().add(gpu::embeddedShaders_NAME());
 function(lucerna_embed_shaders name out_variable)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${name}_shaders.cpp)
   set(inputs)
+  list(JOIN ARGN "|" joined)  # a list would not survive the command line
   foreach(shader IN LISTS ARGN)
     list(APPEND inputs ${PROJECT_SOURCE_DIR}/src/${shader})
   endforeach()
   add_custom_command(OUTPUT ${output}
     COMMAND ${CMAKE_COMMAND} -DNAME=${name} -DOUTPUT=${output} -DROOT=${PROJECT_SOURCE_DIR}/src
-            "-DSHADERS=${ARGN}" -P ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
+            "-DSHADERS=${joined}" -P ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake
     DEPENDS ${inputs} ${PROJECT_SOURCE_DIR}/cmake/embed_shaders.cmake VERBATIM)
   set_property(GLOBAL APPEND PROPERTY LUCERNA_SHADERS ${ARGN})
   set(${out_variable} ${output} PARENT_SCOPE)

@@ -34,15 +34,23 @@ class Buffer {
 // One vertex attribute: `location` in the shader, read from `buffer`.
 struct VertexAttribute {
   std::uint32_t location = 0;
-  std::uint32_t buffer = 0;      // index in VertexInputDesc::buffers
-  int components = 4;            // 1 to 4
-  enum class Type : std::uint8_t { Float, Half, Unorm8, Snorm8, Unorm16, Snorm16, Uint32 } type = Type::Float;
-  std::uint32_t offset = 0;      // bytes
+  std::uint32_t buffer = 0;  // index in VertexInputDesc::buffers
+  int components = 4;        // 1 to 4
+  enum class Type : std::uint8_t {
+    Float,
+    Half,
+    Unorm8,
+    Snorm8,
+    Unorm16,
+    Snorm16,
+    Uint32
+  } type = Type::Float;
+  std::uint32_t offset = 0;  // bytes
 };
 struct VertexBuffer {
   const Buffer* buffer = nullptr;
-  std::uint32_t stride = 0;      // bytes
-  std::uint32_t divisor = 0;     // 1: advances once an instance
+  std::uint32_t stride = 0;   // bytes
+  std::uint32_t divisor = 0;  // 1: advances once an instance
 };
 struct VertexInputDesc {
   std::vector<VertexBuffer> buffers;

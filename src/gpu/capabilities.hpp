@@ -20,16 +20,21 @@ inline constexpr std::string_view kFeatureLayeredVertex = "layer-from-vertex-sha
 inline constexpr std::string_view kFeatureClipControl = "clip-control";
 
 struct Capabilities {
-  std::string name;        // "OpenGL 4.5 baseline", or the driver's renderer string
+  std::string name;  // "OpenGL 4.5 baseline", or the driver's renderer string
   std::set<std::string, std::less<>> features;
-  std::set<Format> renderable;   // formats usable as targets
+  std::set<Format> renderable;  // formats usable as targets
   int maxTextureSide = 16384;
   int maxColorTargets = 8;
   int maxSamples = 4;
   bool softwareRasterizer = false;  // llvmpipe, softpipe, SwiftShader: timer queries lie
 
   static Capabilities baseline();  // OpenGL 4.5 as DESIGN section 3 states it
+  // {"name", "features": [...], "renderable": [...], "maxTextureSide", "maxColorTargets",
+  // "maxSamples", "softwareRasterizer"}: features and renderable are required, the others keep
+  // their defaults. Unknown keys, features and formats are errors (ErrorKind::Input) that name
+  // them; `name` is what messages call the text, usually its path.
   static Result<Capabilities> fromJson(const std::string& text, const std::string& name);
+  std::string toJson() const;
 };
 
 }  // namespace lucerna::gpu

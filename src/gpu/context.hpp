@@ -1,4 +1,5 @@
-// A headless OpenGL 4.5 core context: EGL surfaceless first, then EGL devices; never a hidden window.
+// A headless OpenGL 4.5 core context: EGL surfaceless first, then EGL devices; never a hidden
+// window.
 #pragma once
 
 #include <memory>
@@ -12,10 +13,13 @@ enum class ContextKind { Auto, Egl };
 
 class Context {
  public:
-  // Makes a context and makes it current on this thread. Errors (ErrorKind::NoGl) say what was tried.
+  // Makes a context and makes it current on this thread. Errors (ErrorKind::NoGl) say what was
+  // tried.
   static Result<std::unique_ptr<Context>> create(ContextKind kind = ContextKind::Auto);
   ~Context();
-  const std::string& platform() const { return platform_; }  // "EGL surfaceless", "EGL device 0", ...
+  const std::string& platform() const {
+    return platform_;
+  }  // "EGL surfaceless", "EGL device 0", ...
 
  private:
   Context() = default;

@@ -1,8 +1,7 @@
 // The one door to OpenGL: makes objects, draws, counts. One thread owns it.
 //
-//   gpu::Rendering draw = device.render({.colors = {{&color, gpu::Load::Clear}}, .depth = {&depth}});
-//   draw.use(*program, state);
-//   draw.texture("normal", normal, gpu::kNearest);
+//   gpu::Rendering draw = device.render({.colors = {{&color, gpu::Load::Clear}}, .depth =
+//   {&depth}}); draw.use(*program, state); draw.texture("normal", normal, gpu::kNearest);
 //   draw.fullscreen();
 #pragma once
 
@@ -10,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/math/math.hpp"
@@ -26,33 +26,35 @@ namespace lucerna::gpu {
 
 // What was asked of the GPU since the last reset. Exact everywhere, unlike times.
 struct Counters {
-  std::uint64_t draws = 0;        // draw calls, a multi-draw counts each command
+  std::uint64_t draws = 0;  // draw calls, a multi-draw counts each command
   std::uint64_t dispatches = 0;
-  std::uint64_t primitives = 0;   // triangles, lines, points sent
-  std::uint64_t uploads = 0;      // bytes
+  std::uint64_t primitives = 0;  // triangles, lines, points sent
+  std::uint64_t uploads = 0;     // bytes
   std::uint64_t targetSwitches = 0;
 };
 
 // GL objects alive, by kind; and bytes we counted.
 struct ObjectCounts {
-  int textures = 0, buffers = 0, vertexInputs = 0, programs = 0, framebuffers = 0, samplers = 0, queries = 0;
+  int textures = 0, buffers = 0, vertexInputs = 0, programs = 0, framebuffers = 0, samplers = 0,
+      queries = 0;
   std::uint64_t textureBytes = 0, bufferBytes = 0;
   bool operator==(const ObjectCounts&) const = default;
 };
 
 enum class Load : std::uint8_t { Keep, Clear, Discard };
 
+// Clear and Discard concern the whole attachment, whatever the viewport is.
 struct ColorTarget {
   const Texture* texture = nullptr;
   Load load = Load::Keep;
-  vec4 clear{0.f};                // unsigned-integer formats: each component is rounded
-  int layer = -1;                 // -1: the whole texture (all layers of an array)
+  vec4 clear{0.f};  // unsigned-integer formats: each component is rounded
+  int layer = -1;   // -1: the whole texture (all layers of an array)
   int level = 0;
 };
 struct DepthTarget {
   const Texture* texture = nullptr;
   Load load = Load::Keep;
-  float clear = 0.f;              // reversed depth: 0 is far
+  float clear = 0.f;  // reversed depth: 0 is far
   std::uint8_t clearStencil = 0;
   int layer = -1;
   int level = 0;
@@ -61,37 +63,51 @@ struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
 };
 struct Targets {
-  std::vector<ColorTarget> colors;
-  DepthTarget depth;
-  Rect viewport;                  // zero width: all of the target. Row 0 is the bottom, as in GL.
+  std::vector<ColorTarget> colors{};
+  DepthTarget depth{};
+  Rect viewport{};  // zero width: all of the target. Row 0 is the bottom, as in GL.
 };
 
-// Drawing and computing with explicit bindings. Bindings hold until the scope ends.
+// Drawing and computing with explicit bindings. Bindings are by the name in the shader, hold until
+// the scope ends, also across use(), and may come before it; a name that the program lacks is
+// ignored, and a draw with a sampler, image or block that was never bound is a failed CHECK. One
+// scope (Rendering or Computing) is open at a time.
 class Commands {
  public:
+  Commands(const Commands&) = delete;
+  Commands& operator=(const Commands&) = delete;
+
+  // Uniforms of the program may change between draws (Program::set). Draws with an unusable program
+  // do nothing.
   void use(const Program& program, const RenderState& state);
+  // Integer formats are read with kNearest. An element of a sampler array is "name[2]".
   void texture(std::string_view name, const Texture& texture, const Sampler& sampler);
-  void buffer(std::string_view block, const Buffer& buffer);      // uniform or storage block
+  void buffer(std::string_view block, const Buffer& buffer);  // uniform or storage block
   void image(std::string_view name, const Texture& texture, int level = 0);  // load and store
 
  protected:
-  friend class Device;
   explicit Commands(Device& device) : device_(&device) {}
-  Device* device_ = nullptr;
-  const Program* program_ = nullptr;
+  Commands(Commands&& other) noexcept : device_(std::exchange(other.device_, nullptr)) {}
+  ~Commands() = default;
+  bool prepare();  // binds what the program reads; false if it is unusable
+
+  Device* device_ = nullptr;  // null: moved from
 };
 
 class Rendering : public Commands {
  public:
-  Rendering(Rendering&& other) noexcept;
+  Rendering(Rendering&& other) noexcept = default;
   ~Rendering();
 
+  // first, count: of indices if the input is indexed, else of vertices.
   void draw(const VertexInput& input, std::uint32_t first, std::uint32_t count,
-            std::uint32_t instances = 1, std::int32_t baseVertex = 0, std::uint32_t baseInstance = 0);
-  // commands holds IndexedDrawCommand; primitives: their triangles in all, for the counters.
+            std::uint32_t instances = 1, std::int32_t baseVertex = 0,
+            std::uint32_t baseInstance = 0);
+  // commands holds IndexedDrawCommand; first and count are of commands; primitives: their triangles
+  // in all, for the counters.
   void multiDraw(const VertexInput& input, const Buffer& commands, std::uint32_t first,
                  std::uint32_t count, std::uint64_t primitives);
-  void fullscreen();              // one triangle over the viewport; vertex shader gpu/fullscreen.vert
+  void fullscreen();  // one triangle over the viewport; vertex shader gpu/fullscreen.vert
   void setScissor(Rect rect);
 
  private:
@@ -101,12 +117,15 @@ class Rendering : public Commands {
 
 class Computing : public Commands {
  public:
+  Computing(Computing&& other) noexcept = default;
+  ~Computing();
+
   void use(const Program& program);
-  void dispatch(std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
+  void dispatch(std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);  // in work groups
 
  private:
   friend class Device;
-  using Commands::Commands;
+  explicit Computing(Device& device);
 };
 
 class Context;
@@ -114,8 +133,10 @@ class Context;
 class Device {
  public:
   // context must stay alive and current. Loads the driver's capabilities, sets reversed depth
-  // (glClipControl) and debug output.
+  // (glClipControl) and debug output; the environment's LUCERNA_SHADERS becomes the root of
+  // shaderSources(). Errors (ErrorKind::NoGl) say what is missing.
   static Result<std::unique_ptr<Device>> create(Context& context);
+  // Textures, buffers and vertex inputs must be gone by now; programs become unusable.
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -125,39 +146,43 @@ class Device {
   std::string description() const;
 
   Texture createTexture(const TextureDesc& desc, std::string label);
-  // Level 0 of one layer from pixels that fit the format (U8 for unorm and sRGB, F32/Half for float).
+  // Level 0 of one layer from pixels that fit the format (U8 for unorm and sRGB, F32/Half for
+  // float; integer formats take components of their own width, 32-bit ones as the bits of F32).
   // Image rows are top first, and so is texture row 0: v = 0 is the top, as glTF has it.
   void upload(const Texture& texture, const Image& image, int layer = 0);
   void generateMipmaps(const Texture& texture);
-  void clear(const Texture& texture, vec4 value);   // all of level 0
-  // Whole level 0 of one layer. Rows bottom first as GL stores targets unless flip. Depth gives F32.
+  void clear(const Texture& texture, vec4 value);  // all of level 0; linear, also in sRGB formats
+  // Whole level 0 of one layer. Rows bottom first as GL stores targets unless flip: flip for what
+  // was rendered, not for what was uploaded. Depth and packed floats give F32; 32-bit integers
+  // their bits in F32 (read them as<std::uint32_t>()). sRGB formats give the stored, encoded bytes.
   Image download(const Texture& texture, int layer = 0, bool flip = true);
   void copy(const Texture& from, const Texture& to);  // level 0, same desc
 
   Buffer createBuffer(std::span<const std::byte> data, std::string label);
   Buffer createBuffer(std::size_t bytes, std::string label);
   void update(Buffer& buffer, std::span<const std::byte> data, std::size_t offset = 0);
-  // Reuses `buffer` if it is large enough, else makes it anew (with some room to grow).
+  // Reuses `buffer` if it is large enough, else makes it anew (with some room to grow): a
+  // VertexInput made from it must then be made anew too.
   void write(Buffer& buffer, std::span<const std::byte> data, const std::string& label);
   std::vector<std::byte> download(const Buffer& buffer);
   VertexInput createVertexInput(const VertexInputDesc& desc, std::string label);
 
-  // Compiles, or returns the cached one. A failure is kept in errors() and the program is unusable
-  // (or stays as it was, on reload).
+  // Compiles, or returns the cached one. A failure is kept for takeErrors() and the program is
+  // unusable (or stays as it was, on reload).
   ProgramPtr program(const ProgramDesc& desc);
   ShaderSources& shaderSources();
-  // Recompiles programs whose files changed; returns how many.
+  // Recompiles programs whose files changed; returns how many it tried.
   int reloadChangedShaders();
   // Shader faults since the last call, each with file and line (ErrorKind::Pipeline).
   std::vector<Error> takeErrors();
 
   Rendering render(const Targets& targets);
   Computing compute();
-  void barrier();                 // storage writes become visible to everything after it
+  void barrier();  // storage writes become visible to everything after it
 
   void pushGroup(std::string_view name);
   void popGroup();
-  void finish();                  // waits for the GPU
+  void finish();  // waits for the GPU
 
   // GPU time in ms. On software rasterisers timer queries lie: there the timer finishes the pipe at
   // both ends and uses the CPU clock (usesCpuClock()).
@@ -178,7 +203,8 @@ class Device {
   Impl& impl() { return *impl_; }  // for the other files of gpu/
 
  private:
-  Device() = default;
+  Device();
+  void rebuild(Program& program);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -14,11 +14,12 @@
 namespace lucerna::gpu {
 
 class Device;
+struct Uniform;
 
 struct ProgramDesc {
-  std::string vertex, fragment;  // paths relative to src/; or
-  std::string compute;
-  std::map<std::string, std::string> defines;
+  std::string vertex{}, fragment{};  // paths relative to src/; or
+  std::string compute{};
+  std::map<std::string, std::string> defines{};
   bool operator<(const ProgramDesc& other) const {
     return std::tie(vertex, fragment, compute, defines) <
            std::tie(other.vertex, other.fragment, other.compute, other.defines);
@@ -26,14 +27,15 @@ struct ProgramDesc {
 };
 
 // Uniforms by name; a name the program does not use is ignored (the compiler may drop it), a wrong
-// type asserts. Textures and blocks are bound by name at the draw.
+// type asserts. Values stay with the program, except over a reload: set them before each use.
+// Textures and blocks are bound by name at the draw.
 class Program {
  public:
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
 
-  // False if it never compiled: draws with it do nothing, and Device::errors() has the reason.
+  // False if it never compiled: draws with it do nothing, and Device::takeErrors() has the reason.
   bool usable() const { return id_ != 0; }
   const ProgramDesc& desc() const { return desc_; }
 
@@ -52,10 +54,11 @@ class Program {
   void set(std::string_view name, std::span<const vec4> values) const;
 
  private:
-  friend class Device;
-  friend class Commands;
-  Program() = default;
+  friend class Device;  // its Impl included
+  friend struct Reflector;
+  Program();
   struct Reflection;
+  const Uniform* find(std::string_view name) const;
   ProgramDesc desc_;
   Device* device_ = nullptr;
   std::uint32_t id_ = 0;

@@ -1,5 +1,6 @@
 // Shader text by path (relative to src/), with includes. Shaders are compiled into the libraries;
-// a folder given by setRoot() (--shaders DIR, LUCERNA_SHADERS) is read first, which gives hot reload.
+// a folder given by setRoot() (--shaders DIR, LUCERNA_SHADERS) is read first, which gives hot
+// reload.
 #pragma once
 
 #include <filesystem>
@@ -30,19 +31,28 @@ class ShaderSources {
   void setRoot(std::filesystem::path root);
 
   // Expands `#include "path"` (paths relative to src/, each file once) and puts `#version 450 core`
-  // and the defines on top. Errors (ErrorKind::Pipeline) name file and line.
+  // and the defines on top. Includes are taken before the preprocessor runs, so they stand outside
+  // #if. Errors (ErrorKind::Pipeline) name file and line.
   Result<ExpandedShader> expand(const std::string& path,
                                 const std::map<std::string, std::string>& defines) const;
-  // Files under the root that changed since the last call.
+  // Shader files under the root that changed since the last call (at first: since setRoot), as
+  // paths relative to it, sorted. Empty without a root.
   std::vector<std::string> changedFiles();
 
  private:
+  Result<std::string> read(const std::string& path, const std::string& includedFrom) const;
+  Status append(const std::string& path, const std::string& includedFrom,
+                ExpandedShader& result) const;
+  std::map<std::string, std::filesystem::file_time_type> listRoot() const;
+
   std::map<std::string, std::string_view, std::less<>> embedded_;
   std::filesystem::path root_;
   std::map<std::string, std::filesystem::file_time_type> times_;
 };
 
-// Turns a driver's log ("1:12(3): error", "1(12) : error") into "file:line: error" lines.
+// Turns a driver's log into "file:line: error: ..." lines. Reads the forms of Mesa
+// ("1:12(3): error: ..."), NVIDIA ("1(12) : error C0000: ...") and AMD ("ERROR: 1:12: ...");
+// other lines stay as they are.
 std::string mapShaderLog(const std::string& log, const ExpandedShader& shader);
 
 }  // namespace lucerna::gpu

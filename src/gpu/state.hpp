@@ -5,7 +5,16 @@
 
 namespace lucerna::gpu {
 
-enum class Compare : std::uint8_t { Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
+enum class Compare : std::uint8_t {
+  Never,
+  Less,
+  Equal,
+  LessEqual,
+  Greater,
+  NotEqual,
+  GreaterEqual,
+  Always
+};
 enum class Cull : std::uint8_t { None, Back, Front };
 enum class Blend : std::uint8_t {
   Off,
@@ -14,7 +23,8 @@ enum class Blend : std::uint8_t {
   Transmit,       // src + dst * src1: coloured transmittance by dual-source blending
   Add,            // src + dst
   Multiply,       // src * dst
-  Min, Max,
+  Min,
+  Max,
 };
 enum class StencilOp : std::uint8_t { Keep, Zero, Replace, Increment, Decrement, Invert };
 enum class Topology : std::uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
@@ -32,14 +42,14 @@ struct RenderState {
   bool depthTest = false;
   bool depthWrite = false;
   Compare depthCompare = Compare::GreaterEqual;
-  Blend blend = Blend::Off;             // of all colour targets
+  Blend blend = Blend::Off;  // of all colour targets
   Cull cull = Cull::Back;
-  bool frontIsClockwise = false;        // mirrored objects and mirrors
+  bool frontIsClockwise = false;  // mirrored objects and mirrors
   bool wireframe = false;
-  std::uint8_t colorMask = 0xf;         // bits r g b a
-  std::uint8_t clipDistances = 0;       // gl_ClipDistance[0..n)
+  std::uint8_t colorMask = 0xf;    // bits r g b a
+  std::uint8_t clipDistances = 0;  // gl_ClipDistance[0..n)
   float depthBias = 0.f, depthSlopeBias = 0.f;
-  Stencil stencil;
+  Stencil stencil{};
   Topology topology = Topology::Triangles;
   bool operator==(const RenderState&) const = default;
 };

@@ -17,8 +17,8 @@ struct TextureDesc {
   TextureKind kind = TextureKind::Plain2D;
   Format format = Format::Rgba8Unorm;
   int width = 1, height = 1;
-  int layers = 1;     // Array2D: layers; Cube: 6; CubeArray: 6 n
-  int levels = 1;     // 0: all mip levels
+  int layers = 1;  // Array2D: layers; Cube: 6; CubeArray: 6 n
+  int levels = 1;  // 0: all mip levels (a texture made so has their number in its desc)
   int samples = 1;
   bool operator==(const TextureDesc&) const = default;
   std::uint64_t bytes() const;  // of all levels, layers and samples, counted by us
@@ -51,7 +51,11 @@ class Texture {
   std::string label_;
 };
 
-enum class Filter : std::uint8_t { Nearest, Linear, Trilinear };  // Trilinear: mipmapped, 4x anisotropic
+enum class Filter : std::uint8_t {
+  Nearest,
+  Linear,
+  Trilinear
+};  // Trilinear: mipmapped, 4x anisotropic
 enum class Address : std::uint8_t { Repeat, MirroredRepeat, ClampToEdge, ClampToBorder };
 
 // Samplers are values; the Device keeps one GL object per distinct value.

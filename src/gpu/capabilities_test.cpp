@@ -1,0 +1,65 @@
+#include "gpu/capabilities.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace lucerna::gpu {
+namespace {
+
+using testing::HasSubstr;
+
+std::string faultIn(const std::string& text) {
+  const auto result = Capabilities::fromJson(text, "caps.json");
+  if (result) return "no fault";
+  EXPECT_EQ(result.error().kind, ErrorKind::Input);
+  EXPECT_THAT(result.error().message, HasSubstr("caps.json"));
+  return result.error().message;
+}
+
+TEST(Capabilities, BaselineIsOpenGl45) {
+  const Capabilities caps = Capabilities::baseline();
+  EXPECT_TRUE(caps.features.contains(kFeatureCompute));
+  EXPECT_FALSE(caps.features.contains(kFeatureLayeredVertex));
+  EXPECT_TRUE(caps.renderable.contains(Format::Rgba16Float));
+  EXPECT_FALSE(caps.renderable.contains(Format::Rgb9E5));
+}
+
+TEST(Capabilities, SurviveJson) {
+  Capabilities caps = Capabilities::baseline();
+  caps.maxSamples = 2;
+  caps.softwareRasterizer = true;
+  const auto back = Capabilities::fromJson(caps.toJson(), "memory");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->name, caps.name);
+  EXPECT_EQ(back->features, caps.features);
+  EXPECT_EQ(back->renderable, caps.renderable);
+  EXPECT_EQ(back->maxSamples, 2);
+  EXPECT_TRUE(back->softwareRasterizer);
+}
+
+TEST(Capabilities, LimitsAndNameMayBeMissing) {
+  const auto caps = Capabilities::fromJson(R"({"features": [], "renderable": ["R8Unorm"]})", "x");
+  ASSERT_TRUE(caps) << caps.error().message;
+  EXPECT_EQ(caps->name, "x");
+  EXPECT_EQ(caps->maxColorTargets, 8);
+  EXPECT_EQ(caps->renderable, std::set{Format::R8Unorm});
+}
+
+TEST(Capabilities, FaultsAreNamed) {
+  EXPECT_THAT(faultIn("{"), HasSubstr("not JSON"));
+  EXPECT_THAT(faultIn("[]"), HasSubstr("found array"));
+  EXPECT_THAT(faultIn(R"({"renderable": []})"), HasSubstr("\"features\" must be an array"));
+  EXPECT_THAT(faultIn(R"({"features": ["computer"], "renderable": []})"),
+              HasSubstr("did you mean 'compute'"));
+  EXPECT_THAT(faultIn(R"({"features": [], "renderable": ["Rgba16"]})"), HasSubstr("'Rgba16'"));
+  EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSample": 4})"),
+              HasSubstr("did you mean 'maxSamples'"));
+  EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSamples": 0})"),
+              HasSubstr("from 1 to"));
+  EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSamples": 1.5})"),
+              HasSubstr("whole number"));
+  EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "name": 3})"), HasSubstr("a string"));
+}
+
+}  // namespace
+}  // namespace lucerna::gpu
