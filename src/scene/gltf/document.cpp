@@ -1,0 +1,188 @@
+#include "scene/gltf/document.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace lucerna::scene::gltf {
+
+namespace {
+
+constexpr int kMaxDepth = 64;                       // of nested arrays and objects
+constexpr std::uint64_t kMaxText = 512ull << 20;    // bytes of JSON
+constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
+constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
+
+constexpr std::array kReadExtensions = {
+    "KHR_lights_punctual",     "KHR_texture_transform", "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",     "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness",
+    "EXT_mesh_gpu_instancing",
+};
+
+std::uint32_t read32(std::span<const std::byte> bytes, std::size_t at) {
+  std::uint32_t value = 0;  // little-endian, as all machines that we build for
+  std::memcpy(&value, bytes.data() + at, 4);
+  return value;
+}
+
+std::string at(std::size_t byte) {
+  return fmt::format("byte {}", byte);
+}
+
+// Splits a GLB into its JSON and its BIN chunk (glTF 2.0, section 4).
+std::string_view splitBinary(Document& document) {
+  const std::span<const std::byte> file = document.file;
+  const std::string again = "export the file again";
+  if (file.size() < 20) {
+    fail(at(0), fmt::format("a file of {} bytes", file.size()),
+         "a GLB header and chunk of at least 20", "check that the file was copied completely");
+  }
+  if (read32(file, 0) != 0x46546C67) {
+    fail(at(0), fmt::format("{:#010x}", read32(file, 0)), "the GLB magic \"glTF\" (0x46546c67)",
+         "rename a JSON file to .gltf, or " + again);
+  }
+  if (read32(file, 4) != 2) {
+    fail(at(4), fmt::format("version {}", read32(file, 4)), "version 2", again + " as glTF 2.0");
+  }
+  const std::size_t length = read32(file, 8);
+  if (length > file.size()) {
+    fail(at(8), fmt::format("a length of {}", length),
+         fmt::format("at most the {} bytes that the file has", file.size()),
+         "check that the file was copied completely");
+  }
+  if (length < file.size()) document.warn("bytes after the end of the GLB are ignored");
+
+  std::string_view text;
+  std::size_t position = 12;
+  for (int chunk = 0; position < length; ++chunk) {
+    if (length - position < 8) {
+      fail(at(position), fmt::format("{} bytes", length - position), "a chunk header of 8", again);
+    }
+    const std::size_t size = read32(file, position);
+    const std::uint32_t type = read32(file, position + 4);
+    const std::string place = fmt::format("chunk {} at byte {}", chunk, position);
+    position += 8;
+    if (size > length - position) {
+      fail(place, fmt::format("a chunk length of {}", size),
+           fmt::format("at most the {} bytes that are left", length - position),
+           "check that the file was copied completely");
+    }
+    const auto content = file.subspan(position, size);
+    position += size;
+    if (size % 4 != 0) document.warn(place + " has a length that is no multiple of 4");
+    if (chunk == 0) {
+      if (type != kJsonChunk)
+        fail(place, fmt::format("type {:#010x}", type), "a JSON chunk first", again);
+      text = {reinterpret_cast<const char*>(content.data()), content.size()};
+    } else if (type == kJsonChunk) {
+      fail(place, "a second JSON chunk", "one only", again);
+    } else if (type == kBinaryChunk) {
+      if (document.hasBinary) fail(place, "a second BIN chunk", "one at most", again);
+      if (chunk != 1) fail(place, "the BIN chunk", "it straight after the JSON chunk", again);
+      document.binary = content;
+      document.hasBinary = true;
+    } else {
+      document.warn(place + fmt::format(" has the unknown type {:#010x} and is ignored", type));
+    }
+  }
+  return text;
+}
+
+// JSON nests far less than this in practice; a parser or a destructor may not bear more.
+void checkDepth(std::string_view text) {
+  int depth = 0;
+  bool inString = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (inString) {
+      if (c == '\\')
+        ++i;
+      else if (c == '"')
+        inString = false;
+    } else if (c == '"') {
+      inString = true;
+    } else if (c == '{' || c == '[') {
+      if (++depth > kMaxDepth) {
+        fail(at(i), fmt::format("more than {} nested arrays and objects", kMaxDepth),
+             fmt::format("at most {}", kMaxDepth), "export the file again without its extras");
+      }
+    } else if (c == '}' || c == ']') {
+      --depth;
+    }
+  }
+}
+
+void parse(Document& document, std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) {
+    text.remove_prefix(3);
+    document.warn("the byte-order mark before the JSON is ignored");
+  }
+  if (text.empty()) fail("/", "no JSON at all", "a JSON object", "export the file again");
+  checkDepth(text);
+  try {
+    document.json = Json::parse(text);
+  } catch (const Json::exception& exception) {
+    std::string what =
+        exception.what();  // "[json.exception.parse_error.101] parse error at line..."
+    if (const auto end = what.find("] "); end != std::string::npos) what = what.substr(end + 2);
+    fail("JSON", what, "well-formed JSON in UTF-8", "export the file again");
+  }
+}
+
+void checkExtensions(Document& document) {
+  const auto read = [](const std::string& name) {
+    return std::find(kReadExtensions.begin(), kReadExtensions.end(), name) != kReadExtensions.end();
+  };
+  std::set<std::string> required;
+  for (const Place& place : document.root().elements("extensionsRequired")) {
+    const std::string name = place.text();
+    required.insert(name);
+    if (!read(name)) {
+      fail(place.pointer(), "\"" + name + "\"", "an extension that Lucerna reads",
+           "export the file again without " + name);
+    }
+  }
+  for (const Place& place : document.root().elements("extensionsUsed")) {
+    const std::string name = place.text();
+    if (!read(name)) document.warn("the extension " + name + " is not read: drawn without it");
+  }
+}
+
+}  // namespace
+
+void Document::warn(std::string sentence) {
+  if (said_.insert(sentence).second) warnings.push_back(std::move(sentence));
+}
+
+void Document::spend(std::uint64_t bytes, const Place& place) {
+  spent_ += bytes;
+  const std::uint64_t most = std::max<std::uint64_t>(256ull << 20, 32 * bufferBytes);
+  if (spent_ > most) {
+    place.refuse(fmt::format("data that expands to {} bytes or more", spent_),
+                 fmt::format("at most {}, as much as the file's size makes plausible", most));
+  }
+}
+
+void openDocument(Document& document, const std::filesystem::path& path, Bytes file) {
+  document.path = path;
+  document.file = std::move(file);
+  const bool magic = document.file.size() >= 4 && read32(document.file, 0) == 0x46546C67;
+  const bool binary = magic || path.extension() == ".glb" || path.extension() == ".GLB";
+  const std::string_view text =
+      binary ? splitBinary(document)
+             : std::string_view(reinterpret_cast<const char*>(document.file.data()),
+                                document.file.size());
+  if (text.size() > kMaxText) {
+    fail("JSON", fmt::format("{} bytes", text.size()), fmt::format("at most {}", kMaxText),
+         "keep buffers and images in files of their own");
+  }
+  parse(document, text);
+
+  const Place version = document.root().at("asset").at("version");
+  if (!version.text().starts_with("2.")) {
+    version.refuse("\"2.0\"");
+  }
+  checkExtensions(document);
+}
+
+}  // namespace lucerna::scene::gltf

@@ -1,0 +1,29 @@
+#include "scene/gltf/gltf_reader.hpp"
+
+#include "core/file.hpp"
+#include "scene/gltf/convert.hpp"
+
+namespace lucerna::scene {
+
+Result<Scene> readGltf(const std::filesystem::path& path) {
+  LUCERNA_TRY(file, readFile(path));
+  gltf::Document document;
+  Scene scene;
+  scene.name = path.stem().string();
+  try {
+    gltf::openDocument(document, path, std::move(file));
+    gltf::readBuffers(document);
+    gltf::Context context{document, gltf::readAccessors(document), scene, {}, {}};
+    gltf::readMaterials(context);
+    gltf::readMeshes(context);
+    gltf::readNodes(context);
+    gltf::readAnimations(context);
+  } catch (const gltf::Fault& fault) {
+    return error(ErrorKind::Input, "{}: {}", path.string(), fault.message);
+  }
+  if (scene.objects.empty()) document.warn("the file has nothing to draw");
+  scene.warnings.insert(scene.warnings.begin(), document.warnings.begin(), document.warnings.end());
+  return scene;
+}
+
+}  // namespace lucerna::scene

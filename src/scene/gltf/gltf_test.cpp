@@ -1,0 +1,426 @@
+// Small glTF files written by the tests, one for each rule of the format that is easy to get wrong.
+#include <gmock/gmock.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "scene/gltf/gltf_reader.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::Contains;
+using testing::HasSubstr;
+
+// A glTF under construction: JSON plus one buffer.
+class GltfFile : public testing::Test {
+ protected:
+  GltfFile() {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::temp_directory_path() / (std::string("lucerna_gltf_") + info->name());
+    fs::create_directories(folder_);
+    root_["asset"]["version"] = "2.0";
+    root_["scene"] = 0;
+    root_["scenes"][0]["nodes"] = {0};
+    root_["nodes"][0]["mesh"] = 0;
+  }
+  ~GltfFile() override { fs::remove_all(folder_); }
+
+  // Appends an accessor over new data and returns its index.
+  template <typename T>
+  int accessor(const std::vector<T>& values, int componentType, const char* type, int components,
+               bool normalized = false) {
+    while (buffer_.size() % 4 != 0) buffer_.push_back('\0');
+    const std::size_t offset = buffer_.size();
+    buffer_.resize(offset + values.size() * sizeof(T));
+    std::memcpy(buffer_.data() + offset, values.data(), values.size() * sizeof(T));
+    root_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(T)}});
+    json made = {{"bufferView", root_["bufferViews"].size() - 1},
+                 {"componentType", componentType},
+                 {"count", values.size() / static_cast<std::size_t>(components)},
+                 {"type", type}};
+    if (normalized) made["normalized"] = true;
+    root_["accessors"].push_back(made);
+    return static_cast<int>(root_["accessors"].size()) - 1;
+  }
+  int floats(const std::vector<float>& values, const char* type, int components) {
+    return accessor(values, 5126, type, components);
+  }
+  // A unit square of four corners in the first primitive.
+  json& square() {
+    json& primitive = root_["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] = floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
+    return primitive;
+  }
+  json& indexedSquare() {
+    json& primitive = square();
+    primitive["indices"] = accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, 5123, "SCALAR", 1);
+    return primitive;
+  }
+
+  Result<Scene> read() {
+    if (!buffer_.empty()) {
+      root_["buffers"][0]["byteLength"] = buffer_.size();
+      root_["buffers"][0]["uri"] = "a%20b.bin";  // percent-encoded
+      std::ofstream(folder_ / "a b.bin", std::ios::binary) << buffer_;
+    }
+    return readText(root_.dump());
+  }
+  Result<Scene> readText(const std::string& text, const char* name = "test.gltf") {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+    auto scene = readGltf(folder_ / name);
+    if (scene) updateTransforms(*scene);
+    return scene;
+  }
+  // Reads and expects a refusal whose message contains all words.
+  void expectRefused(const std::vector<std::string>& words) {
+    const auto scene = read();
+    ASSERT_FALSE(scene) << "was read";
+    EXPECT_EQ(scene.error().kind, ErrorKind::Input);
+    for (const auto& word : words) EXPECT_THAT(scene.error().message, HasSubstr(word));
+  }
+
+  json root_;
+  std::string buffer_;
+  fs::path folder_;
+};
+
+TEST_F(GltfFile, StripsAndFansBecomeTriangleListsThatFaceForward) {
+  json& primitive = square();
+  primitive["indices"] = accessor<std::uint8_t>({0, 1, 3, 2}, 5121, "SCALAR", 1);
+  primitive["mode"] = 5;
+  auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(0, 1, 3, 1, 2, 3));
+
+  root_["meshes"][0]["primitives"][0]["mode"] = 6;
+  root_["meshes"][0]["primitives"][0].erase("indices");
+  scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(1, 2, 0, 2, 3, 0));
+}
+
+TEST_F(GltfFile, SeveralNodesShareAMeshAndItsEqualPrimitives) {
+  json& primitive = indexedSquare();
+  json copy = primitive;
+  copy["material"] = 0;
+  root_["materials"][0]["name"] = "red";
+  root_["meshes"][0]["primitives"].push_back(copy);
+  root_["nodes"] = {{{"mesh", 0}, {"children", {1}}}, {{"mesh", 0}, {"translation", {1, 2, 3}}}};
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->meshes.size(), 1u);
+  ASSERT_EQ(scene->objects.size(), 4u);
+  EXPECT_EQ(scene->materials.size(), 2u);  // red, and the default of the first primitive
+  EXPECT_EQ(scene->objects[1].material, 0u);
+  EXPECT_EQ(scene->objects[0].material, 1u);
+  EXPECT_EQ(scene->nodes[1].parent, 0u);
+  EXPECT_EQ(scene->objects[3].boundsW.min, vec3(1, 2, 3));
+}
+
+TEST_F(GltfFile, MatricesBecomeTransformsOrStayIfTheyShear) {
+  indexedSquare();
+  root_["scenes"][0]["nodes"] = {0, 1};
+  // Columns: x to -2y, y to 3x, z to z: a quarter turn with a mirror, and scale 2, 3, 1.
+  root_["nodes"][0]["matrix"] = {0, -2, 0, 0, -3, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1};
+  root_["nodes"][1] = {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}};
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_FALSE(scene->nodes[0].matrix);
+  const vec4 corner = scene->nodes[0].worldFromNode * vec4(1, 1, 1, 1);
+  EXPECT_LT(glm::distance(corner, vec4(2, 4, 8, 1)), 1e-5f);
+  ASSERT_TRUE(scene->nodes[1].matrix);
+  EXPECT_EQ(scene->nodes[1].worldFromNode[1], vec4(1, 1, 0, 0));
+}
+
+TEST_F(GltfFile, NormalizedAndInterleavedDataAreConverted) {
+  // Corners of 16 bytes: position as floats, texture coordinate as normalized unsigned shorts.
+  json& primitive = root_["meshes"][0]["primitives"][0];
+  struct Corner {
+    float position[3];
+    std::uint16_t uv[2];
+  };
+  const Corner corners[3] = {{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {65535, 0}}, {{0, 1, 0}, {0, 32768}}};
+  buffer_.assign(reinterpret_cast<const char*>(corners), sizeof(corners));
+  root_["bufferViews"][0] = {{"buffer", 0}, {"byteLength", 48}, {"byteStride", 16}};
+  root_["accessors"] = {
+      {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
+      {{"bufferView", 0},
+       {"byteOffset", 12},
+       {"componentType", 5123},
+       {"count", 3},
+       {"type", "VEC2"},
+       {"normalized", true}}};
+  primitive["attributes"] = {{"POSITION", 0}, {"TEXCOORD_0", 1}};
+  primitive["attributes"]["COLOR_0"] =
+      accessor<std::uint16_t>({65535, 0, 32768, 0, 0, 0, 0, 0, 65535}, 5123, "VEC3", 3, true);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Mesh& mesh = scene->meshes[0];
+  EXPECT_EQ(mesh.positions[2], vec3(0, 1, 0));
+  EXPECT_EQ(mesh.texCoords[0][1], vec2(1, 0));
+  EXPECT_NEAR(mesh.texCoords[0][2].y, 0.5f, 1e-5f);
+  EXPECT_EQ(mesh.colors[0], u8vec4(255, 0, 128, 255));
+}
+
+TEST_F(GltfFile, SparseAccessorsReplaceElements) {
+  json& primitive = indexedSquare();
+  const int at = accessor<std::uint8_t>({2}, 5121, "SCALAR", 1);
+  const int with = floats({7, 8, 9}, "VEC3", 3);
+  const json accessors = root_["accessors"];
+  root_["accessors"][primitive["attributes"]["POSITION"].get<int>()]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", accessors[at]["bufferView"]}, {"componentType", 5121}}},
+      {"values", {{"bufferView", accessors[with]["bufferView"]}}}};
+  auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->meshes[0].positions[2], vec3(7, 8, 9));
+  EXPECT_EQ(scene->meshes[0].positions[1], vec3(1, 0, 0));
+}
+
+TEST_F(GltfFile, FewUsedVerticesAreGathered) {
+  json& primitive = root_["meshes"][0]["primitives"][0];
+  std::vector<float> positions(300);
+  for (std::size_t i = 0; i < 300; ++i) positions[i] = static_cast<float>(i);
+  primitive["attributes"]["POSITION"] = floats(positions, "VEC3", 3);
+  primitive["indices"] = accessor<std::uint32_t>({90, 5, 40}, 5125, "SCALAR", 1);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Mesh& mesh = scene->meshes[0];
+  ASSERT_EQ(mesh.positions.size(), 3u);
+  EXPECT_EQ(mesh.positions[mesh.indices[0]].x, 270.f);
+  EXPECT_EQ(mesh.positions[mesh.indices[1]].x, 15.f);
+  EXPECT_EQ(mesh.positions[mesh.indices[2]].x, 120.f);
+}
+
+TEST_F(GltfFile, MaterialsKeepEveryField) {
+  json& primitive = indexedSquare();
+  primitive["material"] = 0;
+  root_["images"][0]["uri"] = "missing.png";
+  root_["samplers"][0] = {{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}};
+  root_["textures"][0] = {{"source", 0}, {"sampler", 0}};
+  root_["materials"][0] = json::parse(R"({
+    "name": "m", "alphaMode": "MASK", "alphaCutoff": 0.25, "doubleSided": true,
+    "emissiveFactor": [1, 0.5, 0],
+    "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 4}},
+    "emissiveTexture": {"index": 0, "texCoord": 1},
+    "normalTexture": {"index": 0, "scale": 2},
+    "occlusionTexture": {"index": 0, "strength": 0.5},
+    "pbrMetallicRoughness": {
+      "baseColorFactor": [0.1, 0.2, 0.3, 0.4], "metallicFactor": 0.5, "roughnessFactor": 0.6,
+      "baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform":
+        {"offset": [0.5, 0.25], "scale": [2, 3], "rotation": 1.5, "texCoord": 1}}}}})");
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Material& m = scene->materials[0];
+  EXPECT_EQ(m.alphaMode, AlphaMode::Mask);
+  EXPECT_EQ(m.alphaCutoff, 0.25f);
+  EXPECT_TRUE(m.doubleSided);
+  EXPECT_EQ(m.emissive, vec3(4, 2, 0));
+  EXPECT_EQ(m.emissiveTexture.texCoord, 1);
+  EXPECT_EQ(m.normalScale, 2.f);
+  EXPECT_EQ(m.occlusionStrength, 0.5f);
+  EXPECT_EQ(m.albedo, vec4(0.1f, 0.2f, 0.3f, 0.4f));
+  EXPECT_EQ(m.metallic, 0.5f);
+  EXPECT_EQ(m.roughness, 0.6f);
+  EXPECT_EQ(m.albedoTexture.texCoord, 1);
+  EXPECT_EQ(m.albedoTexture.offset, vec2(0.5f, 0.25f));
+  EXPECT_EQ(m.albedoTexture.scale, vec2(2, 3));
+  EXPECT_EQ(m.albedoTexture.rotation, 1.5f);
+  ASSERT_EQ(scene->textures.size(), 1u);  // one glTF texture in four slots
+  EXPECT_EQ(scene->textures[0].wrapS, Wrap::ClampToEdge);
+  EXPECT_EQ(scene->textures[0].wrapT, Wrap::MirroredRepeat);
+  EXPECT_TRUE(scene->textures[0].nearest);
+  ASSERT_NE(scene->textures[0].image, nullptr);
+  EXPECT_EQ(scene->textures[0].image->width(), 64);  // the checkerboard
+  EXPECT_THAT(scene->warnings, Contains(HasSubstr("texture missing.png is replaced")));
+}
+
+TEST_F(GltfFile, LightsAndCamerasStandAtTheirNodes) {
+  indexedSquare();
+  root_["extensionsRequired"] = {"KHR_lights_punctual"};
+  root_["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([
+    {"type": "spot", "color": [1, 0.5, 0.25], "intensity": 20, "range": 8,
+     "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}},
+    {"type": "directional", "intensity": 3}])");
+  root_["cameras"] = json::parse(R"([
+    {"type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1, "aspectRatio": 1.5}},
+    {"type": "orthographic", "orthographic": {"xmag": 4, "ymag": 2, "znear": 0, "zfar": 9}}])");
+  root_["scenes"][0]["nodes"] = {0, 1, 2};
+  root_["nodes"][1] = {{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}};
+  root_["nodes"][2] = {{"camera", 1}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}};
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->lights.size(), 2u);
+  const Light& spot = scene->lights[0];
+  EXPECT_EQ(spot.kind, LightKind::Spot);
+  EXPECT_EQ(spot.color, vec3(1, 0.5f, 0.25f));
+  EXPECT_EQ(spot.intensity, 20.f);
+  EXPECT_EQ(spot.range, 8.f);
+  EXPECT_EQ(spot.innerCone, 0.2f);
+  EXPECT_EQ(spot.outerCone, 0.4f);
+  EXPECT_EQ(spot.node, 1u);
+  EXPECT_EQ(scene->lights[1].kind, LightKind::Directional);
+  ASSERT_EQ(scene->cameras.size(), 2u);
+  EXPECT_EQ(scene->cameras[0].fovY, 0.7f);
+  EXPECT_TRUE(std::isinf(scene->cameras[0].far));
+  EXPECT_EQ(scene->cameras[1].height, 4.f);
+  EXPECT_EQ(scene->cameras[1].aspect, 2.f);
+}
+
+TEST_F(GltfFile, AnimationsKeepKeysAndInterpolation) {
+  indexedSquare();
+  const int times = floats({0, 1}, "SCALAR", 1);
+  const int places = floats(std::vector<float>(18, 2.f), "VEC3", 3);
+  const int turns = accessor<std::int16_t>({0, 0, 0, 32767, 0, 32767, 0, 0}, 5122, "VEC4", 4, true);
+  root_["animations"][0] = {
+      {"samplers",
+       {{{"input", times}, {"output", places}, {"interpolation", "CUBICSPLINE"}},
+        {{"input", times}, {"output", turns}, {"interpolation", "STEP"}}}},
+      {"channels",
+       {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}},
+        {{"sampler", 1}, {"target", {{"node", 0}, {"path", "rotation"}}}},
+        {{"sampler", 1}, {"target", {{"node", 0}, {"path", "weights"}}}}}}};
+  auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto& channels = scene->animations.at(0).channels;
+  ASSERT_EQ(channels.size(), 2u);
+  EXPECT_EQ(channels[0].interpolation, Interpolation::CubicSpline);
+  EXPECT_EQ(channels[0].values.size(), 6u);
+  EXPECT_EQ(channels[1].interpolation, Interpolation::Step);
+  EXPECT_EQ(channels[1].values[1], vec4(0, 1, 0, 0));
+  EXPECT_THAT(scene->warnings, Contains(HasSubstr("\"weights\", which is not animated")));
+
+  root_["animations"][0]["samplers"][1]["interpolation"] = "CUBICSPLINE";
+  expectRefused({"/accessors/4", "2 values for 2 times", "3 a time"});
+}
+
+TEST_F(GltfFile, InstancesBecomeObjects) {
+  indexedSquare();
+  const int places = floats({0, 0, 0, 5, 0, 0, 10, 0, 0}, "VEC3", 3);
+  root_["extensionsRequired"] = {"EXT_mesh_gpu_instancing"};
+  root_["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = places;
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->objects.size(), 3u);
+  EXPECT_EQ(scene->objects[2].boundsW.min.x, 10.f);
+}
+
+TEST_F(GltfFile, ZeroNormalsTakeTheDirectionOfTheirTriangles) {
+  json& primitive = indexedSquare();
+  primitive["attributes"]["NORMAL"] = floats({0, 0, 0, 2, 0, 0, NAN, 0, 0, 0, 1, 0}, "VEC3", 3);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_THAT(scene->meshes[0].normals,
+              testing::ElementsAre(vec3(0, 0, 1), vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, 1, 0)));
+}
+
+TEST_F(GltfFile, TrianglesAtInfinityAreDropped) {
+  json& primitive = indexedSquare();
+  primitive["attributes"]["POSITION"] =
+      floats({0, 0, 0, INFINITY, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(0, 2, 3));
+  EXPECT_EQ(scene->boundsW().max, vec3(1, 1, 0));
+  EXPECT_THAT(scene->warnings, Contains(HasSubstr("1 of 2 triangles dropped")));
+}
+
+TEST_F(GltfFile, UnlitSurfacesEmitTheirColour) {
+  indexedSquare()["material"] = 0;
+  root_["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 0.5};
+  root_["materials"][0]["extensions"]["KHR_materials_unlit"] = json::object();
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->materials[0].emissive, vec3(0.5f, 0.25f, 1));
+  EXPECT_EQ(scene->materials[0].albedo, vec4(0, 0, 0, 0.5f));
+}
+
+// What must be refused, with the place in the file.
+
+TEST_F(GltfFile, RefusesIndicesBeyondTheVertices) {
+  square()["indices"] = accessor<std::uint16_t>({0, 1, 4}, 5123, "SCALAR", 1);
+  expectRefused({"/meshes/0/primitives/0/indices", "found index 4 at element 2", "below 4"});
+}
+
+TEST_F(GltfFile, RefusesAttributesOfDifferentLength) {
+  indexedSquare()["attributes"]["NORMAL"] = floats({0, 0, 1}, "VEC3", 3);
+  expectRefused({"/meshes/0/primitives/0/attributes/NORMAL", "count 1", "wanted 4"});
+}
+
+TEST_F(GltfFile, RefusesAccessorsBeyondTheirView) {
+  indexedSquare();
+  root_["accessors"][0]["count"] = 4000000000u;
+  expectRefused({"/accessors/0", "4000000000 elements", "48 bytes"});
+}
+
+TEST_F(GltfFile, RefusesBuffersLargerThanTheirFile) {
+  indexedSquare();
+  ASSERT_TRUE(read());
+  root_["buffers"][0]["byteLength"] = 4000000000u;
+  const auto scene = readText(root_.dump());
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, HasSubstr("/buffers/0/byteLength: found 4000000000, but"));
+}
+
+TEST_F(GltfFile, RefusesHugeAccessorsOfZeros) {
+  root_["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 0;
+  root_["accessors"][0] = {{"componentType", 5126}, {"count", 4000000000u}, {"type", "VEC3"}};
+  expectRefused({"found data that expands to"});
+}
+
+TEST_F(GltfFile, RefusesTwoParentsAndCycles) {
+  indexedSquare();
+  root_["nodes"] = {{{"children", {2}}}, {{"children", {2}}}, {{"mesh", 0}}};
+  expectRefused({"/nodes/1/children/0", "child of node 0 already"});
+  root_["nodes"] = {{{"mesh", 0}}, {{"children", {2}}}, {{"children", {1}}}};
+  expectRefused({"/nodes/1/children", "cycle"});
+}
+
+TEST_F(GltfFile, RefusesUnknownRequiredExtensions) {
+  indexedSquare();
+  root_["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+  expectRefused({"/extensionsRequired/0", "KHR_draco_mesh_compression", "export the file again"});
+  root_.erase("extensionsRequired");
+  root_["extensionsUsed"] = {"KHR_draco_mesh_compression"};
+  const auto scene = read();
+  ASSERT_TRUE(scene);
+  EXPECT_THAT(scene->warnings, Contains(HasSubstr("KHR_draco_mesh_compression is not read")));
+}
+
+TEST_F(GltfFile, RefusesDeepNesting) {
+  const std::string deep(100000, '[');
+  const auto scene = readText("{\"asset\":{\"version\":\"2.0\",\"extras\":" + deep);
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, HasSubstr("more than 64 nested"));
+}
+
+TEST_F(GltfFile, BracketsInsideStringsAreNoNesting) {
+  root_.erase("scene");
+  root_.erase("scenes");
+  root_.erase("nodes");
+  root_["asset"]["generator"] = std::string(1000, '[') + "\"\\";
+  EXPECT_TRUE(read());
+}
+
+TEST_F(GltfFile, RefusesWrongTypesByPlace) {
+  indexedSquare();
+  root_["nodes"][0]["translation"] = {1, "two", 3};
+  expectRefused({"/nodes/0/translation/1: found \"two\", wanted a number"});
+  root_["nodes"][0]["translation"] = {1, 2};
+  expectRefused({"/nodes/0/translation: found an array of 2, wanted an array of 3 numbers"});
+}
+
+TEST_F(GltfFile, RefusesBrokenJsonByLine) {
+  const auto scene = readText("{\"asset\":\n{\"version\" \"2.0\"}}");
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, HasSubstr("line 2"));
+}
+
+}  // namespace
+}  // namespace lucerna::scene

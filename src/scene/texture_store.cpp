@@ -1,0 +1,75 @@
+#include "scene/texture_store.hpp"
+
+#include "core/parallel.hpp"
+#include "image/image_file.hpp"
+
+namespace lucerna::scene {
+
+namespace {
+
+// The texture side that OpenGL gives us, and 512 MiB as RGBA.
+constexpr ImageLimits kTextureLimits{.maxSide = 16384, .maxPixels = 128ull << 20};
+
+}  // namespace
+
+std::size_t TextureStore::addFile(const std::filesystem::path& path) {
+  const auto [it, added] = tickets_.emplace(path.lexically_normal(), requests_.size());
+  if (added) requests_.push_back({path.filename().string(), path, {}, {}});
+  return it->second;
+}
+
+std::size_t TextureStore::addBytes(std::string name, Bytes encoded) {
+  requests_.push_back({std::move(name), {}, std::move(encoded), {}});
+  return requests_.size() - 1;
+}
+
+std::size_t TextureStore::addMissing(std::string name, std::string reason) {
+  requests_.push_back({std::move(name), {}, {}, std::move(reason)});
+  return requests_.size() - 1;
+}
+
+std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::string>& warnings) {
+  std::vector<std::shared_ptr<const Image>> images(requests_.size());
+  std::vector<std::string> reasons(requests_.size());
+  parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      Request& request = requests_[i];
+      reasons[i] = request.missing;
+      if (!reasons[i].empty()) continue;
+      auto image = request.path.empty() ? decodeImage(request.bytes, request.name, kTextureLimits)
+                                        : readImage(request.path, kTextureLimits);
+      request.bytes = {};
+      if (image)
+        images[i] = std::make_shared<const Image>(std::move(image).value());
+      else
+        reasons[i] = image.error().message;
+    }
+  });
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    if (images[i]) continue;
+    images[i] = checkerboard();
+    warnings.push_back("texture " + requests_[i].name +
+                       " is replaced by a checkerboard: " + reasons[i]);
+  }
+  requests_.clear();
+  tickets_.clear();
+  return images;
+}
+
+std::shared_ptr<const Image> checkerboard() {
+  static const std::shared_ptr<const Image> image = [] {
+    auto made = std::make_shared<Image>(64, 64, 4, ComponentType::U8);
+    for (int y = 0; y < 64; ++y) {
+      for (int x = 0; x < 64; ++x) {
+        std::uint8_t* pixel = made->pixel<std::uint8_t>(x, y);
+        const bool lit = ((x / 8) + (y / 8)) % 2 == 0;
+        pixel[0] = pixel[2] = lit ? 255 : 0;
+        pixel[3] = 255;
+      }
+    }
+    return made;
+  }();
+  return image;
+}
+
+}  // namespace lucerna::scene

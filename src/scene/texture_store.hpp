@@ -1,0 +1,40 @@
+// Gathers the images that a scene's textures ask for, reads and decodes each once, in parallel.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/file.hpp"
+#include "image/image.hpp"
+
+namespace lucerna::scene {
+
+class TextureStore {
+ public:
+  // Each returns a ticket: an index into what load() returns. The same file gives the same ticket.
+  std::size_t addFile(const std::filesystem::path& path);
+  std::size_t addBytes(std::string name, Bytes encoded);         // the content of an image file
+  std::size_t addMissing(std::string name, std::string reason);  // gives the stand-in
+
+  // One image a ticket, never null. An image that cannot be read gives one sentence in `warnings`
+  // (in order of the tickets) and the checkerboard instead. Empties the store.
+  std::vector<std::shared_ptr<const Image>> load(std::vector<std::string>& warnings);
+
+ private:
+  struct Request {
+    std::string name;
+    std::filesystem::path path;  // empty: bytes
+    Bytes bytes;
+    std::string missing;  // why there is nothing to read; empty: read it
+  };
+  std::vector<Request> requests_;
+  std::map<std::filesystem::path, std::size_t> tickets_;
+};
+
+// The stand-in for a texture that cannot be had: magenta and black squares, 64 x 64 RGBA.
+std::shared_ptr<const Image> checkerboard();
+
+}  // namespace lucerna::scene
