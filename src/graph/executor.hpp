@@ -18,8 +18,9 @@ class Imports {
  public:
   template <PortData T>
   void set(std::string name, const T& data) {
-    entries_[std::move(name)] = {typeid(T), const_cast<T*>(&data)};
+    entries_.insert_or_assign(std::move(name), Entry{typeid(T), const_cast<T*>(&data)});
   }
+  // Null if absent; a wrong type asserts.
   void* find(std::string_view name, std::type_index type) const;
 
  private:
@@ -49,33 +50,39 @@ struct StepProfile {
 };
 struct FrameProfile {
   std::uint64_t frame = 0;
-  std::vector<StepProfile> steps;
-  double cpuMs = 0, gpuMs = 0;
+  std::vector<StepProfile> steps;  // empty while profiling is off
+  double cpuMs = 0, gpuMs = 0;     // gpuMs: the sum of the steps
 };
 
 class Executor {
  public:
+  // The registry must outlive the executor.
   Executor(gpu::Device& device, const Registry& registry);
   ~Executor();
 
   // Validates, makes the passes and textures. Rows that stay keep their instance, textures their
   // pool. On an error (ErrorKind::Pipeline, all faults in one message) nothing is rendered until
-  // the next success. Warnings are logged.
+  // the next success. Warnings are logged once.
   Status setPipeline(const Pipeline& pipeline, uvec2 outputSize,
                      const std::vector<std::string>& kept = {});
-  // Parameters that rebuild nothing may change without setPipeline.
+  // Changes one value of the pipeline. Cheap for parameters that rebuild nothing or shaders; those
+  // that change ports do what setPipeline does. Errors (ErrorKind::Usage; ErrorKind::Pipeline if
+  // the new ports do not fit) change nothing.
   Status setParam(const std::string& row, const std::string& param, const Value& value);
 
   // Runs all steps; after each view's steps calls onView(view, output) while its textures are
-  // alive. A shader that does not compile is an error (ErrorKind::Pipeline).
+  // alive. A shader that does not compile is an error (ErrorKind::Pipeline). All resources that the
+  // pipeline reads must be given (asserted).
   Status execute(const FrameInput& input,
                  const std::function<void(int view, const gpu::Texture& output)>& onView);
-  // A kept value of the view just drawn; valid inside onView. Null if that is not a texture.
-  const gpu::Texture* kept(const std::string& name) const;
+  // A kept value of the view just drawn, as named in setPipeline; valid inside onView. Null if that
+  // is not a texture.
+  const gpu::Texture* kept(std::string_view name) const;
 
   void setProfiling(bool on);
   const FrameProfile& profile() const;  // of the last frame
 
+  // Of the last success; empty after a failure.
   const Plan& plan() const;
   const Schedule& schedule() const;
 

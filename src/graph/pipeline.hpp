@@ -4,9 +4,11 @@
 //    "passes": [{"name": "Ao", "type": "ScreenSpaceAo", "enabled": true,
 //                "reads": {"depth": "GBuffer.depth"}, "params": {"radius": 0.5}}, ...]}
 //
-// `name` defaults to the type, `enabled` to true, `output` to the last enabled row's "color".
+// A row's `name` defaults to its type, `enabled` to true, `output` to the last enabled row's
+// "color". `docs/user/pipeline.schema.json` is the schema.
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <string>
 #include <vector>
@@ -32,14 +34,20 @@ struct Pipeline {
   std::string source;  // file, for messages
 };
 
+// Limits of pipelineFromJson.
+inline constexpr std::size_t kMaxPipelineBytes = 4 << 20;
+inline constexpr std::size_t kMaxPipelineRows = 256;
+inline constexpr int kMaxPipelineDepth = 16;
+
 // Errors (ErrorKind::Pipeline) list every fault of form, each with its place.
 Result<Pipeline> pipelineFromJson(const std::string& text, const std::string& source);
+// Gives the same pipeline back through pipelineFromJson, places aside.
 std::string toJson(const Pipeline& pipeline);
 
 class Registry;
 
-// "Pass.param=value" and "Pass.enabled=false" of --set. Errors (ErrorKind::Usage) say which rows
-// and parameters there are.
+// One of --set: "Row.param=value", "Row.enabled=false" or "Row.reads.port=Other.port". Errors
+// (ErrorKind::Usage) say which rows and parameters there are.
 Status applySetting(Pipeline& pipeline, const Registry& registry, const std::string& setting);
 
 }  // namespace lucerna::graph

@@ -14,6 +14,7 @@ void Registry::add(std::unique_ptr<PassType> type) {
 void Registry::addResource(ResourceDescription resource) {
   CHECK(this->resource(resource.name) == nullptr, "resource '{}' is registered twice",
         resource.name);
+  CHECK(!resource.type.texture, "resource '{}' is a texture: give it as typed data", resource.name);
   resources_.push_back(std::move(resource));
 }
 

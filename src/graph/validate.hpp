@@ -1,5 +1,5 @@
 // Checks a pipeline against the registry and a driver's capabilities, and resolves its wiring. No
-// GL.
+// GL. The rules of binding are a table in docs/dev/graph.md.
 #pragma once
 
 #include <optional>
@@ -20,6 +20,7 @@ enum class FaultKind {
   TypeMismatch,
   FormatMismatch,
   ReadBeforeWrite,
+  ReadAfterUpdate,  // of typed data, which cannot be copied to keep the older version
   Cycle,
   DuplicateName,
   ValueOutOfRange,
@@ -33,6 +34,8 @@ enum class FaultKind {
   EmptyPipeline,
   WrongFrequency,
 };
+const char* nameOf(FaultKind kind);  // "MissingInput"
+
 enum class Severity { Warning, Error };
 
 // One fault: where, what was found, what was wanted, what to do.
@@ -49,9 +52,16 @@ struct Source {
   enum class Kind { Unbound, Output, Resource, Fill } kind = Kind::Unbound;
   std::size_t row =
       0;             // Output: index in Pipeline::passes; Fill: the disabled row it stands in for
-  std::string port;  // Output: its output port; Resource: its name
+  std::string port;  // Output, Fill: the output port; Resource: its name
   vec4 fill{0.f};
   PortType type;
+  // Fill: size of what it stands in for; of Kind::Port: of the output `size.port` of row `sizeRow`.
+  SizeRule size;
+  std::size_t sizeRow = 0;
+
+  bool sameAs(const Source& other) const {
+    return kind == other.kind && row == other.row && port == other.port;
+  }
 };
 
 struct ResolvedInput {
@@ -62,16 +72,21 @@ struct ResolvedInput {
 
 struct ResolvedRow {
   std::size_t row = 0;  // index in Pipeline::passes
+  std::string name;     // of the row
   PassDescription description;
   std::vector<ResolvedInput> inputs;  // In and InOut ports, in the description's order
   bool culled = false;
+
+  const ResolvedInput* input(std::string_view port) const;
 };
 
 // The wiring of a valid pipeline: the enabled rows in list order.
 struct Plan {
   std::vector<ResolvedRow> rows;
   Source output;
-  std::vector<Source> kept;  // further values that must survive to the frame's end
+  std::vector<Source> kept;            // further values that must survive to the frame's end
+  std::vector<std::string> keptNames;  // as asked for
+  std::vector<std::string> rowNames;   // of all rows of the pipeline, also the disabled
 };
 
 struct Validation {
