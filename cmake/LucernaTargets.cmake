@@ -4,6 +4,10 @@
 add_library(lucerna_options INTERFACE)
 target_compile_options(lucerna_options INTERFACE
   -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+  # GCC 12 warns falsely on "literal" + std::string (GCC bug 105329).
+  target_compile_options(lucerna_options INTERFACE -Wno-restrict)
+endif()
 if(LUCERNA_SANITIZE)
   target_compile_options(lucerna_options INTERFACE
     -O1 -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
