@@ -1,0 +1,61 @@
+#include "scene/builtin/builtin.hpp"
+
+#include <functional>
+#include <vector>
+
+#include "core/text.hpp"
+#include "scene/builtin/atrium.hpp"
+#include "scene/builtin/options.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+Result<Scene> readAtrium(builtin::OptionReader& reader) {
+  builtin::AtriumOptions options;
+  int kind = 0;
+  const std::vector<std::string> kinds{"spot", "point"};
+  reader.integer("lights", options.lights, 0, 4096);
+  reader.choice("kind", kind, kinds);
+  reader.number("moving", options.moving, 0, 1);
+  reader.flag("glass", options.glass);
+  reader.integer("seed", options.seed, 0, ~0u);
+  LUCERNA_TRY_VOID(reader.finish());
+  options.kind = kind == 0 ? LightKind::Spot : LightKind::Point;
+  return builtin::makeAtrium(options);
+}
+
+struct Builtin {
+  std::string name;
+  Result<Scene> (*read)(builtin::OptionReader& reader);
+};
+
+const std::vector<Builtin>& builtins() {
+  static const std::vector<Builtin> all{{"atrium", readAtrium}};
+  return all;
+}
+
+}  // namespace
+
+Result<Scene> makeBuiltin(const std::string& spec) {
+  constexpr std::string_view kPrefix = "builtin:";
+  const std::string rest = spec.starts_with(kPrefix) ? spec.substr(kPrefix.size()) : spec;
+  const std::string full = std::string(kPrefix) + rest;
+  const std::size_t question = rest.find('?');
+  const std::string name = rest.substr(0, question);
+  const std::string query = question == std::string::npos ? "" : rest.substr(question + 1);
+
+  std::vector<std::string> names;
+  for (const Builtin& entry : builtins()) {
+    names.push_back(entry.name);
+    if (entry.name != name) continue;
+    builtin::OptionReader reader(full, query);
+    LUCERNA_TRY(scene, entry.read(reader));
+    scene.name = full;
+    updateTransforms(scene);
+    return scene;
+  }
+  return error(ErrorKind::Input, "{}: no built-in scene is called '{}'{}; there are {}", full, name,
+               didYouMean(name, names), join(names));
+}
+
+}  // namespace lucerna::scene
