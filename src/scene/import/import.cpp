@@ -1,0 +1,59 @@
+#include "scene/import/import.hpp"
+
+#include "scene/import/import_textures.hpp"
+#include "scene/import/scene_stream.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+Error describeFailure(const std::filesystem::path& path, const ChildOutput& output,
+                      const ChildLimits& limits) {
+  if (output.end == ChildOutput::End::Cancelled)
+    return error(ErrorKind::Cancelled, "{}: reading was cancelled", path.string());
+  if (output.end == ChildOutput::End::Exited &&
+      output.status == static_cast<int>(ErrorKind::Input) && !output.err.empty())
+    return {ErrorKind::Input, output.err};
+  return error(ErrorKind::Input,
+               "{}: the reader of this file {}; wanted a valid file of that kind; check it, or "
+               "export it again, for example as glTF",
+               path.string(), describeEnd(output, limits));
+}
+
+}  // namespace
+
+ChildLimits importLimits(std::uint64_t fileBytes) {
+  constexpr std::uint64_t kBytesPerMillisecond = 2000;  // a twentieth of what OBJ files reach
+  ChildLimits limits;
+  limits.time = std::chrono::milliseconds(10'000 + fileBytes / kBytesPerMillisecond);
+  limits.residentBytes = (1ull << 30) + 8 * fileBytes;
+  limits.outputBytes = limits.residentBytes;
+  return limits;
+}
+
+Result<Scene> importScene(const std::filesystem::path& path) {
+  std::error_code code;
+  const std::uint64_t size = std::filesystem::file_size(path, code);
+  if (code)
+    return error(ErrorKind::Input, "{}: {}; wanted a readable file", path.string(), code.message());
+  const ChildLimits limits = importLimits(size);
+  ChildOutput output = runChild(workerProgram(), {"--worker", "import", path.string()}, {}, limits);
+  if (output.end != ChildOutput::End::Exited || output.status != 0)
+    return describeFailure(path, output, limits);
+
+  Result<ImportedScene> imported = readStream(output.out);
+  if (!imported)
+    return error(ErrorKind::Input,
+                 "{}: the reader of this file gave a scene that {}; wanted a valid file; check it, "
+                 "or export it again, for example as glTF",
+                 path.string(), imported.error().message);
+  output.out = {};
+  loadTextures(*imported, path.parent_path());
+  Scene scene = std::move(imported->scene);
+  if (scene.objects.empty())
+    return error(ErrorKind::Input,
+                 "{}: holds no triangles; wanted a scene to draw; look whether it was cut off",
+                 path.string());
+  return scene;
+}
+
+}  // namespace lucerna::scene

@@ -1,0 +1,22 @@
+// Stands in for the lucerna binary in tests: `test_worker --worker import PATH`. A file name that
+// says so makes it misbehave as a reader taken over by a hostile file might.
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <thread>
+
+#include "scene/import/import_worker.hpp"
+
+int main(int argc, char** argv) {
+  if (argc != 4 || std::string(argv[1]) != "--worker" || std::string(argv[2]) != "import") return 2;
+  const std::string path = argv[3];
+  const auto says = [&](const char* word) { return path.find(word) != std::string::npos; };
+  if (says("worker_crashes")) std::raise(SIGSEGV);
+  if (says("worker_hangs")) std::this_thread::sleep_for(std::chrono::hours(1));
+  if (says("worker_lies")) {
+    std::fputs("this is no scene at all, but it is long enough to look like one", stdout);
+    return 0;
+  }
+  return lucerna::scene::importWorker(path);
+}

@@ -1,0 +1,78 @@
+#include "scene/load.hpp"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+
+#include "scene/builtin/builtin.hpp"
+#include "scene/gltf/gltf_reader.hpp"
+#include "scene/import/import.hpp"
+#include "scene/load_parts.hpp"
+#include "scene/scene_json.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string lowerExtension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+Status checkReadable(const fs::path& path) {
+  std::error_code code;
+  const fs::file_status status = fs::status(path, code);
+  if (status.type() == fs::file_type::not_found)
+    return error(ErrorKind::Input,
+                 "{}: no such file; wanted a scene file or builtin:NAME (builtin:atrium, ...)",
+                 path.string());
+  if (status.type() == fs::file_type::directory)
+    return error(ErrorKind::Input, "{}: is a folder; name the scene file inside it", path.string());
+  return {};
+}
+
+Result<Scene> readFileOfScene(const fs::path& path, IncludeChain& chain) {
+  const std::string extension = lowerExtension(path);
+  if (extension == ".gltf" || extension == ".glb") return readGltf(path);
+  static constexpr std::array kImported{".obj", ".ac", ".acc", ".dae", ".fbx", ".ply", ".3ds"};
+  if (std::find(kImported.begin(), kImported.end(), extension) != kImported.end())
+    return importScene(path);
+  if (extension == ".json") {
+    Scene scene;
+    LUCERNA_TRY_VOID(addSceneJson(scene, path, chain));
+    return scene;
+  }
+  return error(ErrorKind::Input,
+               "{}: found the extension '{}'; wanted one of .gltf .glb .obj .ac .acc .dae .fbx "
+               ".ply .3ds, or .json for a scene JSON",
+               path.string(), extension);
+}
+
+}  // namespace
+
+Result<Scene> readScene(const std::string& pathOrName, IncludeChain& chain) {
+  if (pathOrName.starts_with("builtin:")) return makeBuiltin(pathOrName);
+  const fs::path path(pathOrName);
+  LUCERNA_TRY_VOID(checkReadable(path));
+  LUCERNA_TRY(scene, readFileOfScene(path, chain));
+  if (lowerExtension(path) != ".json") {
+    fs::path beside = path;
+    beside.replace_extension(".lucerna.json");
+    std::error_code code;
+    if (fs::exists(beside, code)) LUCERNA_TRY_VOID(addSceneJson(scene, beside, chain));
+  }
+  if (scene.name.empty()) scene.name = path.filename().string();
+  return scene;
+}
+
+Result<Scene> loadScene(const std::string& pathOrName) {
+  IncludeChain chain;
+  LUCERNA_TRY(scene, readScene(pathOrName, chain));
+  complete(scene);
+  return scene;
+}
+
+}  // namespace lucerna::scene

@@ -1,0 +1,96 @@
+// Materials and background of a scene JSON.
+#include <algorithm>
+
+#include "core/text.hpp"
+#include "scene/scene_json_parts.hpp"
+#include "scene/texture_store.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+void readMaterial(const JsonValue& from, Material& material) {
+  int choice = 0;
+  if (from.readChoice("model", {"phong", "metallic-roughness"}, choice))
+    material.model = static_cast<MaterialModel>(choice);
+  vec3 albedo(material.albedo);
+  if (from.read("albedo", albedo, kNotNegative)) material.albedo = vec4(albedo, material.albedo.w);
+  if (from.read("opacity", material.albedo.w, kUnitRange) && !from.has("alphaMode"))
+    material.alphaMode = material.albedo.w < 1.f ? AlphaMode::Blend : AlphaMode::Opaque;
+  if (from.readChoice("alphaMode", {"opaque", "mask", "blend"}, choice))
+    material.alphaMode = static_cast<AlphaMode>(choice);
+  from.read("alphaCutoff", material.alphaCutoff, kUnitRange);
+  from.read("transmission", material.transmission, kUnitRange);
+  from.read("emissive", material.emissive, kNotNegative);
+  from.read("doubleSided", material.doubleSided);
+  from.read("specular", material.specular, kNotNegative);
+  from.read("shininess", material.shininess, {0.f, 255.f});
+  from.read("metallic", material.metallic, kUnitRange);
+  from.read("roughness", material.roughness, kUnitRange);
+}
+
+std::uint32_t addPicture(const JsonValue& value, const std::filesystem::path& folder,
+                         Scene& scene) {
+  std::string name;
+  if (!value.text(name)) return kNone;
+  TextureStore store;
+  store.addFile(folder / name);
+  std::vector<std::string> problems;
+  Texture texture;
+  texture.name = name;
+  texture.image = store.load(problems).front();
+  for (const std::string& problem : problems)
+    value.fault(problem + "; wanted a picture (PNG, JPEG, TGA, BMP, HDR or EXR)");
+  texture.wrapS = texture.wrapT = Wrap::ClampToEdge;
+  scene.textures.push_back(std::move(texture));
+  return static_cast<std::uint32_t>(scene.textures.size() - 1);
+}
+
+}  // namespace
+
+void readMaterials(const JsonValue& materials, Scene& scene) {
+  std::vector<std::string> names;
+  for (const Material& material : scene.materials) names.push_back(material.name);
+  for (const auto& [name, from] : materials.members()) {
+    if (!from.object({"model", "albedo", "opacity", "alphaMode", "alphaCutoff", "transmission",
+                      "emissive", "doubleSided", "specular", "shininess", "metallic", "roughness"}))
+      continue;
+    if (std::find(names.begin(), names.end(), name) == names.end()) {
+      from.fault(fmt::format("the scene has no material '{}'{}; wanted one of its {} materials",
+                             name, didYouMean(name, names), names.size()));
+      continue;
+    }
+    for (Material& material : scene.materials)
+      if (material.name == name) readMaterial(from, material);
+  }
+}
+
+void readBackground(const JsonValue& from, const std::filesystem::path& folder, Scene& scene) {
+  if (!from.object({"color", "image", "faces", "intensity"})) return;
+  if (from.has("image") && from.has("faces"))
+    return from.fault("found both \"image\" and \"faces\", wanted one of them");
+  Background& background = scene.background;
+  if (from.read("color", background.color, kNotNegative)) background.kind = BackgroundKind::Color;
+  from.read("intensity", background.intensity, kNotNegative);
+  if (from.has("image")) {
+    background.texture = addPicture(from.at("image"), folder, scene);
+    if (background.texture != kNone) background.kind = BackgroundKind::Image;
+  }
+  if (!from.has("faces")) return;
+  const std::vector<JsonValue> faces = from.at("faces").elements();
+  if (faces.size() != 6) return from.at("faces").wrong("six pictures: +x, -x, +y, -y, +z, -z");
+  std::array<std::uint32_t, 6> textures{};
+  for (std::size_t i = 0; i < 6; ++i) textures[i] = addPicture(faces[i], folder, scene);
+  if (std::find(textures.begin(), textures.end(), kNone) != textures.end()) return;
+  const Image& first = *scene.textures[textures[0]].image;
+  for (std::size_t i = 0; i < 6; ++i) {
+    const Image& image = *scene.textures[textures[i]].image;
+    if (image.width() != image.height() || image.width() != first.width())
+      return faces[i].fault(
+          fmt::format("found a picture of {} x {}, wanted six squares of one size", image.width(),
+                      image.height()));
+  }
+  background.faces = textures;
+  background.kind = BackgroundKind::CubeMap;
+}
+
+}  // namespace lucerna::scene
