@@ -25,15 +25,15 @@ enum class ParamType { Bool, Int, Float, Choice, Text, Color, Vector };
 enum class Rebuild { Nothing, Shaders, Ports };
 
 struct ParamDescription {
-  std::string name;
+  std::string name{};
   ParamType type = ParamType::Float;
-  Value defaultValue;
-  std::optional<double> min, max;    // of numbers, inclusive
-  std::string unit;                  // "m", "rad", "px", "EV", ...; "" for pure numbers
-  std::vector<std::string> choices;  // of Choice
-  std::size_t size = 1;              // numbers in a Color (3) or Vector
+  Value defaultValue{};
+  std::optional<double> min{}, max{};  // of numbers, inclusive
+  std::string unit{};                  // "m", "rad", "px", "EV", ...; "" for pure numbers
+  std::vector<std::string> choices{};  // of Choice
+  std::size_t size = 1;                // numbers in a Color (3) or Vector
   Rebuild rebuild = Rebuild::Nothing;
-  std::string help;
+  std::string help{};
 };
 
 enum class Direction { In, Out, InOut };
@@ -42,23 +42,23 @@ enum class Direction { In, Out, InOut };
 struct TextureSpec {
   gpu::TextureKind kind = gpu::TextureKind::Plain2D;
   // In: accepted formats, empty = any. Out: exactly one, the format made.
-  std::vector<gpu::Format> formats;
+  std::vector<gpu::Format> formats{};
   int layers = 1, levels = 1, samples = 1;  // of outputs
 };
 
 // What a port carries: a texture, or typed data (draw lists, lights, ...) known by its C++ type.
 struct PortType {
-  std::optional<TextureSpec> texture;
+  std::optional<TextureSpec> texture{};
   std::type_index data = typeid(void);
-  std::string dataName;                             // "DrawLists"
-  std::function<std::shared_ptr<void>()> makeData;  // a new default-constructed one
-  std::string text() const;                         // for messages: "a 2D texture (Depth32F)"
+  std::string dataName{};                             // "DrawLists"
+  std::function<std::shared_ptr<void>()> makeData{};  // a new default-constructed one
+  std::string text() const;                           // for messages: "a 2D texture (Depth32F)"
 };
 
 // Size of an output, as a relation.
 struct SizeRule {
   enum class Kind { Output, Port, Absolute } kind = Kind::Output;
-  std::string port;           // Kind::Port: an input of the same pass
+  std::string port{};         // Kind::Port: an input of the same pass
   float scale = 1.f;          // of the size referred to, rounded up, at least 1
   int width = 1, height = 1;  // Kind::Absolute
 };
@@ -67,23 +67,23 @@ struct SizeRule {
 struct StandIn {
   enum class Kind { None, Fill, PassThrough } kind = Kind::None;
   vec4 fill{0.f};
-  std::string input;  // PassThrough: the input whose value the output repeats
+  std::string input{};  // PassThrough: the input whose value the output repeats
 };
 
 inline constexpr int kWholeImage = -1;
 
 struct PortDescription {
-  std::string name;  // inputs and outputs are separate name spaces: a filter reads and
-                     // writes "color"; InOut is both
+  std::string name{};  // inputs and outputs are separate name spaces: a filter reads and
+                       // writes "color"; InOut is both
   Direction direction = Direction::In;
-  PortType type;
-  SizeRule size;          // Out
-  StandIn standIn;        // Out
+  PortType type{};
+  SizeRule size{};        // Out
+  StandIn standIn{};      // Out
   bool optional = false;  // In: may stay unbound. Out: not made when nobody reads it
   bool history = false;   // In: last frame's value of the port it is bound to; unbound after a cut
   bool persistent = false;  // Out: kept between frames (a cache of the pass)
   int halo = 0;             // In: pixels read around the one written; kWholeImage
-  std::string help;
+  std::string help{};
 };
 
 enum class Frequency { PerScene, PerViewGroup, PerView };
@@ -94,12 +94,12 @@ const char* nameOf(Rebuild rebuild);      // "nothing"
 const char* nameOf(Frequency frequency);  // "per view"
 
 struct PassDescription {
-  std::string type;     // "ScreenSpaceAo"
-  std::string summary;  // one sentence
-  std::vector<ParamDescription> params;
-  std::vector<PortDescription> ports;
+  std::string type{};     // "ScreenSpaceAo"
+  std::string summary{};  // one sentence
+  std::vector<ParamDescription> params{};
+  std::vector<PortDescription> ports{};
   Frequency frequency = Frequency::PerView;
-  std::vector<std::string> features;  // gpu::kFeature... names
+  std::vector<std::string> features{};  // gpu::kFeature... names
 
   const ParamDescription* param(std::string_view name) const;
   const PortDescription* input(std::string_view name) const;   // In or InOut

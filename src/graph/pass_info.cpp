@@ -29,17 +29,17 @@ PortBuilder& PortBuilder::sizeOf(std::string input, float scale) {
 }
 
 PortBuilder& PortBuilder::sizeOfOutput(float scale) {
-  d_->size = {.kind = SizeRule::Kind::Output, .port = {}, .scale = scale};
+  d_->size = {.kind = SizeRule::Kind::Output, .scale = scale};
   return *this;
 }
 
 PortBuilder& PortBuilder::size(int width, int height) {
-  d_->size = {.kind = SizeRule::Kind::Absolute, .port = {}, .width = width, .height = height};
+  d_->size = {.kind = SizeRule::Kind::Absolute, .width = width, .height = height};
   return *this;
 }
 
 PortBuilder& PortBuilder::whenDisabled(vec4 fill) {
-  d_->standIn = {.kind = StandIn::Kind::Fill, .fill = fill, .input = {}};
+  d_->standIn = {.kind = StandIn::Kind::Fill, .fill = fill};
   return *this;
 }
 

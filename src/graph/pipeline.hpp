@@ -24,14 +24,14 @@ struct PassRow {
   std::map<std::string, std::string>
       reads;  // input port -> "Row.port", or "Row" for the port of the same name
   ParamValues params;
-  std::string place;  // "deferred.js:12" or "row 3"; for messages
+  std::string place{};  // "deferred.js:12" or "row 3"; for messages
 };
 
 struct Pipeline {
-  std::string name;
-  std::string output;  // "Row.port" or ""
-  std::vector<PassRow> passes;
-  std::string source;  // file, for messages
+  std::string name{};
+  std::string output{};  // "Row.port" or ""
+  std::vector<PassRow> passes{};
+  std::string source{};  // file, for messages
 };
 
 // Limits of pipelineFromJson.

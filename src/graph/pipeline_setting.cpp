@@ -16,14 +16,8 @@ std::vector<std::string> rowNames(const Pipeline& pipeline) {
 }
 
 Status setEnabled(PassRow& row, const std::string& text) {
-  const ParamDescription enabled{.name = row.name + ".enabled",
-                                 .type = ParamType::Bool,
-                                 .defaultValue = true,
-                                 .min = {},
-                                 .max = {},
-                                 .unit = {},
-                                 .choices = {},
-                                 .help = {}};
+  const ParamDescription enabled{
+      .name = row.name + ".enabled", .type = ParamType::Bool, .defaultValue = true};
   LUCERNA_TRY(value, parseValue(enabled, text));
   row.enabled = std::get<bool>(value);
   return {};

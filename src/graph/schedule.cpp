@@ -170,7 +170,6 @@ class Scheduler {
       if (source->type.texture)
         schedule_.steps.push_back({.kind = Step::Kind::Fill,
                                    .name = "(fill) " + name,
-                                   .versions = {},
                                    .to = version,
                                    .fill = source->fill,
                                    .frequency = Frequency::PerScene});
@@ -179,10 +178,7 @@ class Scheduler {
 
   void makeStep() {
     const ResolvedRow& row = plan_.rows[rows_[order_]];
-    Step step{.name = row.name,
-              .row = rows_[order_],
-              .versions = {},
-              .frequency = row.description.frequency};
+    Step step{.name = row.name, .row = rows_[order_], .frequency = row.description.frequency};
     for (const PortDescription& port : row.description.ports) {
       if (port.direction == Direction::Out)
         step.versions.push_back(makeOutput(row, port));
@@ -232,7 +228,6 @@ class Scheduler {
       chains_.push_back({version});
       schedule_.steps.push_back({.kind = Step::Kind::Copy,
                                  .name = "(copy) " + schedule_.versions[old].name,
-                                 .versions = {},
                                  .from = old,
                                  .to = version,
                                  .frequency = row.description.frequency});
@@ -366,7 +361,6 @@ class Scheduler {
     const bool keeps = history || first.standIn || first.frequency == Frequency::PerScene ||
                        anyOf(chain, [](const Version& v) { return v.persistent; });
     return {.desc = first.texture,
-            .versions = {},
             .keepsContent = keeps,
             .history = history,
             .perView = keeps && first.frequency == Frequency::PerView};

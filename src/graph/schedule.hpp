@@ -14,7 +14,7 @@ inline constexpr std::size_t kNoVersion = ~std::size_t{0};
 // A value of the graph: each write or update of a texture or data port makes a new version.
 // Versions made by updates in place share their physical slot.
 struct Version {
-  std::string name;  // "GBuffer.depth"
+  std::string name{};  // "GBuffer.depth"
   PortType type;
   gpu::TextureDesc texture;   // of textures
   std::size_t physical = 0;   // index in Schedule::textures or Schedule::data
@@ -29,7 +29,7 @@ struct Version {
 // Holds its versions one after the other.
 struct PhysicalTexture {
   gpu::TextureDesc desc;
-  std::vector<std::size_t> versions;
+  std::vector<std::size_t> versions{};
   bool keepsContent = false;  // between frames; never shared by other values
   bool history = false;       // there are two, this frame's and the last one's
   bool perView = false;       // there is one a view (or two)
@@ -38,17 +38,17 @@ struct PhysicalTexture {
 // One object, kept between frames.
 struct PhysicalData {
   PortType type;
-  std::vector<std::size_t> versions;
+  std::vector<std::size_t> versions{};
   bool history = false, perView = false;  // as above
 };
 
 struct Step {
   enum class Kind { Pass, Copy, Fill } kind = Kind::Pass;
-  std::string name;     // the row's; "(copy) GBuffer.depth", "(fill) Ao.ambientVisibility"
+  std::string name{};   // the row's; "(copy) GBuffer.depth", "(fill) Ao.ambientVisibility"
   std::size_t row = 0;  // Pass: index in Plan::rows
   // Pass: version of each port in the description's order. kNoVersion: unbound, an output that
   // nobody wants, or a resource.
-  std::vector<std::size_t> versions;
+  std::vector<std::size_t> versions{};
   // Copy: versions; Fill: `to`. A copy is made only where an update would destroy a version that
   // is still read. A fill runs once, when its texture is new.
   std::size_t from = kNoVersion, to = kNoVersion;
@@ -58,12 +58,12 @@ struct Step {
 
 struct Schedule {
   uvec2 outputSize{0};
-  std::vector<Version> versions;
-  std::vector<PhysicalTexture> textures;
-  std::vector<PhysicalData> data;
-  std::vector<Step> steps;  // fills, per scene, per group, per view
+  std::vector<Version> versions{};
+  std::vector<PhysicalTexture> textures{};
+  std::vector<PhysicalData> data{};
+  std::vector<Step> steps{};  // fills, per scene, per group, per view
   std::size_t output = kNoVersion;
-  std::vector<std::size_t> kept;            // as Plan::kept
+  std::vector<std::size_t> kept{};          // as Plan::kept
   std::uint64_t bytes() const;              // of the physical textures, for one view
   std::uint64_t bytesWithoutReuse() const;  // if every version had its own
 };

@@ -78,6 +78,7 @@ bool Storage::prepareViews(std::size_t count) {
   viewCount_ = count;
   for (std::size_t i = 0; i < textures_.size(); ++i) fillViews(textures_[i], labels_[i]);
   for (DataSlots& slots : data_) fillViews(slots);
+  return true;
 }
 
 void Storage::beginFrame(bool cut, bool perSceneRuns) {

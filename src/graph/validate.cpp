@@ -103,10 +103,8 @@ class Validator {
   }
 
   void resolveRow(std::size_t index) {
-    ResolvedRow resolved{.row = index,
-                         .name = pipeline_.passes[index].name,
-                         .description = *descriptions_[index],
-                         .inputs = {}};
+    ResolvedRow resolved{
+        .row = index, .name = pipeline_.passes[index].name, .description = *descriptions_[index]};
     for (const PortDescription& port : resolved.description.ports) {
       if (!isInput(port)) continue;
       const Binding& binding = wiring_.input(index, port);

@@ -42,7 +42,7 @@ enum class Severity { Warning, Error };
 struct Fault {
   FaultKind kind;
   Severity severity = Severity::Error;
-  std::string place;  // "deferred.js:12, pass 'Ao', input 'depth'"
+  std::string place{};  // "deferred.js:12, pass 'Ao', input 'depth'"
   std::string found, wanted, remedy;
   std::string text() const;
 };
@@ -51,8 +51,8 @@ struct Fault {
 struct Source {
   enum class Kind { Unbound, Output, Resource, Fill } kind = Kind::Unbound;
   std::size_t row =
-      0;             // Output: index in Pipeline::passes; Fill: the disabled row it stands in for
-  std::string port;  // Output, Fill: the output port; Resource: its name
+      0;               // Output: index in Pipeline::passes; Fill: the disabled row it stands in for
+  std::string port{};  // Output, Fill: the output port; Resource: its name
   vec4 fill{0.f};
   PortType type;
   // Fill: size of what it stands in for; of Kind::Port: of the output `size.port` of row `sizeRow`.
@@ -65,16 +65,16 @@ struct Source {
 };
 
 struct ResolvedInput {
-  std::string port;
+  std::string port{};
   Source source;
   bool explicitlyBound = false;  // by `reads`
 };
 
 struct ResolvedRow {
   std::size_t row = 0;  // index in Pipeline::passes
-  std::string name;     // of the row
+  std::string name{};   // of the row
   PassDescription description;
-  std::vector<ResolvedInput> inputs;  // In and InOut ports, in the description's order
+  std::vector<ResolvedInput> inputs{};  // In and InOut ports, in the description's order
   bool culled = false;
 
   const ResolvedInput* input(std::string_view port) const;
@@ -82,16 +82,16 @@ struct ResolvedRow {
 
 // The wiring of a valid pipeline: the enabled rows in list order.
 struct Plan {
-  std::vector<ResolvedRow> rows;
+  std::vector<ResolvedRow> rows{};
   Source output;
-  std::vector<Source> kept;            // further values that must survive to the frame's end
-  std::vector<std::string> keptNames;  // as asked for
-  std::vector<std::string> rowNames;   // of all rows of the pipeline, also the disabled
+  std::vector<Source> kept{};            // further values that must survive to the frame's end
+  std::vector<std::string> keptNames{};  // as asked for
+  std::vector<std::string> rowNames{};   // of all rows of the pipeline, also the disabled
 };
 
 struct Validation {
-  std::vector<Fault> faults;  // errors and warnings, in the order of the rows
-  std::optional<Plan> plan;   // absent if there is an error
+  std::vector<Fault> faults{};  // errors and warnings, in the order of the rows
+  std::optional<Plan> plan;     // absent if there is an error
   bool ok() const { return plan.has_value(); }
   std::string text() const;  // all faults, one paragraph each
 };

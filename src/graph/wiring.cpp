@@ -203,7 +203,7 @@ Source Wiring::fill(std::size_t row, const PortDescription& output, vec4 value) 
   const float scale = source.size.scale;
   const PortDescription* like = descriptions_[row]->input(source.size.port);
   const Source base = like ? input(row, *like).source : Source{};
-  source.size = {.kind = SizeRule::Kind::Output, .port = {}, .scale = scale};
+  source.size = {.kind = SizeRule::Kind::Output, .scale = scale};
   if (base.kind == Source::Kind::Output) {
     source.size = {.kind = SizeRule::Kind::Port, .port = base.port, .scale = scale};
     source.sizeRow = base.row;

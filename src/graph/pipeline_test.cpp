@@ -1,0 +1,190 @@
+// The JSON form and --set.
+#include "graph/pipeline.hpp"
+
+#include <gmock/gmock.h>
+
+#include "graph/fake_pass.hpp"
+
+namespace lucerna::graph {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+std::string faultsOf(const std::string& text) {
+  const auto result = pipelineFromJson(text, "bad.json");
+  EXPECT_FALSE(result) << text;
+  if (result) return "";
+  EXPECT_EQ(result.error().kind, ErrorKind::Pipeline);
+  return result.error().message;
+}
+
+constexpr const char* kWhole = R"({
+  "lucerna": "pipeline/1",
+  "name": "whole",
+  "output": "Ao.mask",
+  "passes": [
+    {"type": "GBuffer"},
+    {"name": "Ao", "type": "ScreenSpaceAo", "enabled": false,
+     "reads": {"depth": "GBuffer.depth"},
+     "params": {"b": true, "i": -3, "f": 0.1, "f2": 4.0, "t": "x", "v": [1, 2.5]}}
+  ]
+})";
+
+TEST(PipelineJson, ReadsEveryKey) {
+  const auto pipeline = pipelineFromJson(kWhole, "whole.json");
+  ASSERT_TRUE(pipeline) << pipeline.error().message;
+  EXPECT_EQ(pipeline->name, "whole");
+  EXPECT_EQ(pipeline->output, "Ao.mask");
+  ASSERT_EQ(pipeline->passes.size(), 2u);
+  EXPECT_EQ(pipeline->passes[0].name, "GBuffer");
+  EXPECT_TRUE(pipeline->passes[0].enabled);
+  EXPECT_EQ(pipeline->passes[0].place, "whole.json:6");
+  const PassRow& ao = pipeline->passes[1];
+  EXPECT_EQ(ao.type, "ScreenSpaceAo");
+  EXPECT_FALSE(ao.enabled);
+  EXPECT_EQ(ao.reads.at("depth"), "GBuffer.depth");
+  EXPECT_EQ(ao.params.at("b"), Value(true));
+  EXPECT_EQ(ao.params.at("i"), Value(std::int64_t{-3}));
+  EXPECT_EQ(ao.params.at("f"), Value(0.1));
+  EXPECT_EQ(ao.params.at("f2"), Value(4.0));
+  EXPECT_EQ(ao.params.at("t"), Value(std::string("x")));
+  EXPECT_EQ(ao.params.at("v"), Value(std::vector{1.0, 2.5}));
+}
+
+TEST(PipelineJson, ComesBackTheSame) {
+  const auto first = pipelineFromJson(kWhole, "whole.json");
+  const std::string text = toJson(*first);
+  const auto second = pipelineFromJson(text, "again.json");
+  ASSERT_TRUE(second) << second.error().message;
+  EXPECT_EQ(toJson(*second), text);
+  EXPECT_EQ(second->passes[1].params, first->passes[1].params);
+  EXPECT_EQ(second->passes[1].reads, first->passes[1].reads);
+  EXPECT_EQ(second->output, first->output);
+}
+
+TEST(PipelineJson, ARowMayCarryItsPlace) {
+  const auto pipeline = pipelineFromJson(
+      R"({"lucerna":"pipeline/1","passes":[{"type":"A","place":"a.js:7"}]})", "a.js");
+  EXPECT_EQ(pipeline->passes[0].place, "a.js:7");
+}
+
+TEST(PipelineJson, EveryFaultOfFormAtOnce) {
+  const std::string faults = faultsOf(R"({"lucerna": "pipeline/2", "nmae": "x", "output": 3,
+  "passes": [
+    {"typ": "A"},
+    {"type": "A", "name": "a.b", "enabled": "no"},
+    7,
+    {"type": "A", "reads": {"x": 1}, "params": {"p": null, "q": [[1]]}},
+    {"type": "A", "type": "B", "reads": [], "params": 1}
+  ]})");
+  EXPECT_THAT(faults,
+              AllOf(HasSubstr("pipeline/2"), HasSubstr("did you mean 'name'"), HasSubstr("output"),
+                    HasSubstr("bad.json:3, passes[0]: unknown key \"typ\" (did you mean 'type'"),
+                    HasSubstr("the key \"type\" is missing"), HasSubstr("'a.b'"),
+                    HasSubstr("\"enabled\" is \"no\""), HasSubstr("found 7")));
+  EXPECT_THAT(faults, AllOf(HasSubstr("\"reads\".\"x\" is 1"), HasSubstr("NaN"),
+                            HasSubstr("\"q\" is [[1]]"), HasSubstr("\"type\" stands twice"),
+                            HasSubstr("\"reads\" is []"), HasSubstr("\"params\" is 1")));
+}
+
+TEST(PipelineJson, SyntaxFaultsHaveTheirLine) {
+  EXPECT_THAT(faultsOf("{\n\"lucerna\": \"pipeline/1\",\n oops }"), HasSubstr("bad.json:3:"));
+  EXPECT_THAT(faultsOf(""), HasSubstr("bad.json:1:"));
+  EXPECT_THAT(faultsOf("[]"), HasSubstr("wanted an object"));
+  EXPECT_THAT(faultsOf("{\"lucerna\": \"pipeline/1\", \"passes\": [{\"type\": \"\xff\"}]}"),
+              HasSubstr("bad.json:1"));
+  EXPECT_THAT(faultsOf("\"unfinished\\"), HasSubstr("no JSON"));
+  EXPECT_THAT(faultsOf(R"({"lucerna": "pipeline/1", "passes": [{"params": {"x": 1e999}}]})"),
+              HasSubstr("no JSON"));
+}
+
+TEST(PipelineJson, SizeDepthAndRowsAreLimited) {
+  EXPECT_THAT(faultsOf(std::string(1'000'000, '[')), HasSubstr("nest 1000000 deep"));
+  EXPECT_THAT(faultsOf(std::string(kMaxPipelineBytes + 1, ' ')), HasSubstr("wanted at most"));
+  std::string rows;
+  for (std::size_t i = 0; i <= kMaxPipelineRows; ++i) rows += i ? ",{}" : "{}";
+  EXPECT_THAT(faultsOf(R"({"lucerna":"pipeline/1","passes":[)" + rows + "]}"),
+              HasSubstr("has 257 rows"));
+}
+
+class Setting : public testing::Test {
+ protected:
+  Setting() {
+    add(registry_, FakePass("Ao")
+                       .param({.name = "radius", .defaultValue = 0.5, .min = 0, .max = 10})
+                       .param({.name = "samples",
+                               .type = ParamType::Int,
+                               .defaultValue = std::int64_t{4},
+                               .min = 1,
+                               .max = 64})
+                       .param({.name = "on", .type = ParamType::Bool, .defaultValue = false})
+                       .param({.name = "mode",
+                               .type = ParamType::Choice,
+                               .defaultValue = "Fast",
+                               .choices = {"Fast", "Nice"}})
+                       .param({.name = "tint",
+                               .type = ParamType::Color,
+                               .defaultValue = std::vector{1.0, 1.0, 1.0},
+                               .size = 3})
+                       .in("depth"));
+    pipeline_ = pipelineOf({FakeRow("Ao"), FakeRow("Ao").named("Ao2")});
+  }
+  void set(const std::string& setting) {
+    const Status status = applySetting(pipeline_, registry_, setting);
+    EXPECT_TRUE(status) << status.error().message;
+  }
+  std::string fault(const std::string& setting) {
+    const std::string before = toJson(pipeline_);
+    const Status status = applySetting(pipeline_, registry_, setting);
+    EXPECT_FALSE(status) << setting;
+    EXPECT_EQ(toJson(pipeline_), before) << "a refused setting changed something";
+    if (status) return "";
+    EXPECT_EQ(status.error().kind, ErrorKind::Usage);
+    return status.error().message;
+  }
+  Registry registry_;
+  Pipeline pipeline_;
+};
+
+TEST_F(Setting, IsParsedAsTheDeclaredType) {
+  set("Ao.radius=2");
+  set("Ao2.samples=64");
+  set("Ao.on=true");
+  set("Ao.mode=Nice");
+  set("Ao.tint=[0, 0.5,1]");
+  EXPECT_EQ(pipeline_.passes[0].params.at("radius"), Value(2.0));
+  EXPECT_EQ(pipeline_.passes[0].params.at("on"), Value(true));
+  EXPECT_EQ(pipeline_.passes[0].params.at("mode"), Value(std::string("Nice")));
+  EXPECT_EQ(pipeline_.passes[0].params.at("tint"), Value(std::vector{0.0, 0.5, 1.0}));
+  EXPECT_EQ(pipeline_.passes[1].params.at("samples"), Value(std::int64_t{64}));
+}
+
+TEST_F(Setting, EnablesAndRewires) {
+  set("Ao2.enabled=false");
+  set("Ao2.reads.depth=Other.depth");
+  EXPECT_FALSE(pipeline_.passes[1].enabled);
+  EXPECT_EQ(pipeline_.passes[1].reads.at("depth"), "Other.depth");
+  set("Ao2.reads.depth=");
+  EXPECT_TRUE(pipeline_.passes[1].reads.empty());
+}
+
+TEST_F(Setting, FaultsSayWhatThereIs) {
+  EXPECT_THAT(fault("Ao3.radius=1"), AllOf(HasSubstr("'Ao3'"), HasSubstr("did you mean 'Ao")));
+  EXPECT_THAT(fault("Ao.raduis=1"), HasSubstr("did you mean 'radius'"));
+  EXPECT_THAT(fault("Ao.reads.detph=X"), HasSubstr("did you mean 'depth'"));
+  EXPECT_THAT(fault("Ao.radius=11"), HasSubstr("from 0 to 10"));
+  EXPECT_THAT(fault("Ao.radius=nan"), HasSubstr("from 0 to 10"));
+  EXPECT_THAT(fault("Ao.radius=1m"), HasSubstr("a number"));
+  EXPECT_THAT(fault("Ao.samples=1.5"), HasSubstr("an integer"));
+  EXPECT_THAT(fault("Ao.samples=99999999999999999999"), HasSubstr("an integer"));
+  EXPECT_THAT(fault("Ao.mode=nice"), HasSubstr("did you mean 'Nice'"));
+  EXPECT_THAT(fault("Ao.on=maybe"), HasSubstr("true or false"));
+  EXPECT_THAT(fault("Ao.enabled=maybe"), HasSubstr("true or false"));
+  EXPECT_THAT(fault("Ao.tint=1,2"), HasSubstr("a list of 3 numbers"));
+  for (const char* text : {"Ao", "Ao.radius", "=1", ".radius=1", "Ao.=1", "radius=1"})
+    EXPECT_THAT(fault(text), HasSubstr("wanted Pass.param=value"));
+}
+
+}  // namespace
+}  // namespace lucerna::graph
