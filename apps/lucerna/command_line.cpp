@@ -1,0 +1,91 @@
+#include "command_line.hpp"
+
+#include <cstdio>
+
+#include "core/text.hpp"
+
+namespace lucerna::cli {
+namespace {
+
+// The innermost subcommand that was chosen.
+const CLI::App& chosen(const CLI::App& app) {
+  const auto subcommands = app.get_subcommands();
+  return subcommands.empty() ? app : chosen(*subcommands.front());
+}
+
+std::string fullName(const CLI::App& app) {
+  return app.get_parent() ? fullName(*app.get_parent()) + " " + app.get_name() : app.get_name();
+}
+
+std::vector<std::string> optionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  return names;
+}
+
+std::vector<std::string> subcommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(subcommand->get_name());
+  return names;
+}
+
+// About one word that nobody took.
+std::string describeExtra(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> subcommands = subcommandNames(app);
+  if (word.size() > 1 && word[0] == '-') {
+    const std::string name = word.substr(0, word.find('='));
+    return fmt::format("unknown option '{}'{}", name, didYouMean(name, optionNames(app)));
+  }
+  if (!subcommands.empty())
+    return fmt::format("unknown subcommand '{}'{}; there are {}", word,
+                       didYouMean(word, subcommands), join(subcommands));
+  return fmt::format("unexpected argument '{}'", word);
+}
+
+}  // namespace
+
+CLI::App* addCommand(CommandLine& line, CLI::App& parent, const std::string& name,
+                     const std::string& help, Action action) {
+  CLI::App* command = parent.add_subcommand(name, help);
+  command->add_flag("--json", line.talk.json, "print exactly one JSON document on stdout");
+  command->add_flag("--quiet", line.talk.quiet, "only errors on stderr");
+  command->add_flag("--verbose", line.talk.verbose, "more on stderr");
+  command->callback([&line, action = std::move(action)] { line.action = action; });
+  return command;
+}
+
+CLI::Validator oneOf(std::vector<std::string> choices) {
+  const std::string description = "{" + join(choices, ",") + "}";
+  const auto check = [choices = std::move(choices)](const std::string& value) -> std::string {
+    if (std::find(choices.begin(), choices.end(), value) != choices.end()) return {};
+    return fmt::format("'{}' is not a choice{}; wanted {}", value, didYouMean(value, choices),
+                       join(choices, " or "));
+  };
+  return CLI::Validator(check, description);
+}
+
+std::string usageMessage(const CLI::App& app, const CLI::ParseError& fault) {
+  const CLI::App& command = chosen(app);
+  std::string what = fault.what();
+  // CLI11 lists the words that were left over; the first is the one to talk about.
+  if (fault.get_name() == "ExtrasError") {
+    const std::vector<std::string> words = command.remaining();
+    if (!words.empty()) what = describeExtra(command, words.front());
+  }
+  return fmt::format("{}: {}\n`{} --help` shows how it is used", fullName(command), what,
+                     fullName(command));
+}
+
+void printJson(const Json& document) {
+  printText(document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+}
+
+void printText(const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+}  // namespace lucerna::cli

@@ -1,0 +1,112 @@
+// lucerna compare REFERENCE TEST
+
+#include <memory>
+#include <optional>
+
+#include "command_line.hpp"
+#include "core/log.hpp"
+#include "image/image_file.hpp"
+#include "image/metrics.hpp"
+#include "render_flags.hpp"
+
+namespace lucerna::cli {
+namespace {
+
+struct Options {
+  std::string reference, test, heatmap, mask;
+  std::optional<double> failAbove;
+  bool hdr = false, ldr = false;
+  FlipSettings flip;
+};
+
+// F32 RGB: linear for HDR, sRGB-encoded for LDR. Integer images hold encoded values, floats linear
+// ones.
+Image prepared(const Image& image, bool hdr) {
+  Image result = converted(image, ComponentType::F32, 3);
+  const bool linear = image.type() == ComponentType::F32 || image.type() == ComponentType::Half;
+  if (linear == hdr) return result;
+  for (float& value : result.as<float>())
+    value = hdr ? linearFromSrgb(value) : srgbFromLinear(value);
+  return result;
+}
+
+Status checkSize(const Image& image, const std::string& name, const Image& reference,
+                 const std::string& referenceName) {
+  if (image.width() == reference.width() && image.height() == reference.height()) return {};
+  return error(ErrorKind::Input,
+               "{} is {}x{}, but {} is {}x{}; only pictures of one size are compared", name,
+               image.width(), image.height(), referenceName, reference.width(), reference.height());
+}
+
+Result<std::optional<Image>> readMask(const Options& options, const Image& reference) {
+  if (options.mask.empty()) return std::optional<Image>();
+  LUCERNA_TRY(mask, readImage(options.mask));
+  LUCERNA_TRY_VOID(checkSize(mask, options.mask, reference, options.reference));
+  return std::optional<Image>(converted(mask, ComponentType::U8, 1));
+}
+
+Result<int> compare(const Options& options, bool json) {
+  LUCERNA_TRY(referenceFile, readImage(options.reference));
+  LUCERNA_TRY(testFile, readImage(options.test));
+  LUCERNA_TRY_VOID(checkSize(testFile, options.test, referenceFile, options.reference));
+  LUCERNA_TRY(mask, readMask(options, referenceFile));
+  const Image* maskImage = mask ? &*mask : nullptr;
+
+  const bool hdr = options.hdr || (!options.ldr && (referenceFile.type() == ComponentType::F32 ||
+                                                    testFile.type() == ComponentType::F32));
+  const Image reference = prepared(referenceFile, hdr);
+  const Image test = prepared(testFile, hdr);
+  const ErrorMap flip = hdr ? flipHdr(reference, test, options.flip, maskImage).map
+                            : flipLdr(reference, test, options.flip, maskImage);
+  const PixelMetrics pixels = pixelMetrics(reference, test, maskImage);
+  if (!options.heatmap.empty()) LUCERNA_TRY_VOID(writeImage(options.heatmap, heatMap(flip.error)));
+
+  if (json)
+    printJson({{"flip",
+                {{"mean", flip.mean},
+                 {"weighted_median", flip.weightedMedian},
+                 {"p95", flip.p95},
+                 {"max", flip.max}}},
+               {"psnr", pixels.psnr},
+               {"ssim", pixels.ssim},
+               {"rmse", pixels.rmse}});
+  else
+    printText(fmt::format(
+        "{}-FLIP  mean {:.6f}  weighted median {:.6f}  95th percentile {:.6f}  max {:.6f}\n"
+        "PSNR {:.3f} dB  SSIM {:.6f}  RMSE {:.6f}\n",
+        hdr ? "HDR" : "LDR", flip.mean, flip.weightedMedian, flip.p95, flip.max, pixels.psnr,
+        pixels.ssim, pixels.rmse));
+  if (!options.failAbove || flip.mean <= *options.failAbove) return 0;
+  log::error("{} differs from {}: mean FLIP {:.6f} is above {:g}", options.test, options.reference,
+             flip.mean, *options.failAbove);
+  return static_cast<int>(ErrorKind::Failed);
+}
+
+}  // namespace
+
+void addCompare(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command =
+      addCommand(line, line.app, "compare", "difference of two pictures: FLIP, PSNR, SSIM, RMSE",
+                 [&line, options] { return compare(*options, line.talk.json); });
+  command->add_option("REFERENCE", options->reference, "picture taken as true")->required();
+  command->add_option("TEST", options->test, "picture to judge")->required();
+  command->add_option("--heatmap", options->heatmap, "write the FLIP error as a coloured picture");
+  command->add_option("--mask", options->mask, "picture; black pixels do not count");
+  command
+      ->add_option_function<double>(
+          "--fail-above", [options](double value) { options->failAbove = value; },
+          "exit with 1 if the mean FLIP is above this")
+      ->check(CLI::Range(0.0, 1.0));
+  command
+      ->add_option("--pixels-per-degree", options->flip.pixelsPerDegree,
+                   "of the viewer's eye (67.02)")
+      ->check(CLI::Range(1.f, 1000.f));
+  CLI::Option* hdr = command->add_flag("--hdr", options->hdr, "compare linear values by HDR-FLIP");
+  command
+      ->add_flag("--ldr", options->ldr,
+                 "compare encoded values by LDR-FLIP (default: by file type)")
+      ->excludes(hdr);
+}
+
+}  // namespace lucerna::cli

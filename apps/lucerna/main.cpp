@@ -1,0 +1,79 @@
+// lucerna: the command line. Exit codes are those of ErrorKind.
+
+#include <cstdio>
+#include <cstring>
+
+#include "command_line.hpp"
+#include "core/log.hpp"
+#include "core/progress.hpp"
+#include "scene/import/import_worker.hpp"
+#include "script/script.hpp"
+
+namespace lucerna::cli {
+namespace {
+
+// Hidden: what child processes run (core/child_process.hpp).
+int runWorker(int count, char** words) {
+  const std::string name = count > 2 ? words[2] : "";
+  if (name == "script") return script::scriptWorker();
+  if (name == "import" && count > 3) return scene::importWorker(words[3]);
+  std::fprintf(stderr, "lucerna: --worker is for the program itself\n");
+  return static_cast<int>(ErrorKind::Usage);
+}
+
+// Errors go to stderr; with --json the one document on stdout says it too.
+int fail(const Error& fault, bool json) {
+  std::fprintf(stderr, "error: %s\n", fault.message.c_str());
+  const int code = static_cast<int>(fault.kind);
+  if (json) printJson({{"error", {{"code", code}, {"message", fault.message}}}});
+  return code;
+}
+
+bool wantsJson(int count, char** words) {
+  for (int i = 1; i < count; ++i)
+    if (std::strcmp(words[i], "--json") == 0) return true;
+  return false;
+}
+
+int run(int count, char** words) {
+  CommandLine line;
+  line.app.name("lucerna");
+  line.app.description("A real-time renderer whose picture is a list of passes.");
+  line.app.set_version_flag("--version", "lucerna " LUCERNA_VERSION);
+  line.app.footer(
+      "Exit codes: 0 ok, 1 failed or differs, 2 usage, 3 input unreadable, 4 no usable "
+      "OpenGL,\n5 pipeline, pass or shader error, 130 cancelled.");
+  addRender(line);
+  addCompare(line);
+  addInfo(line);
+  addDoctor(line);
+  addPass(line);
+  addPipeline(line);
+  try {
+    line.app.parse(count, words);
+  } catch (const CLI::Success& done) {
+    return line.app.exit(done);  // --help, --version
+  } catch (const CLI::ParseError& fault) {
+    return fail({ErrorKind::Usage, usageMessage(line.app, fault)}, wantsJson(count, words));
+  }
+  if (!line.action) {
+    std::fputs(line.app.help().c_str(), stderr);
+    return static_cast<int>(ErrorKind::Usage);
+  }
+  log::setLevel(line.talk.quiet     ? log::Level::Error
+                : line.talk.verbose ? log::Level::Debug
+                                    : log::Level::Info);
+  Progress::setVisible(!line.talk.quiet);
+  Progress::catchInterrupt();
+  const Result<int> result = line.action();
+  return result ? *result : fail(result.error(), line.talk.json);
+}
+
+}  // namespace
+}  // namespace lucerna::cli
+
+int main(int count, char** words) {
+  if (count > 1 && std::strcmp(words[1], "--worker") == 0)
+    return lucerna::cli::runWorker(count, words);
+  return lucerna::cli::run(count, words);
+}

@@ -1,0 +1,92 @@
+// lucerna render SCENE -o out.png
+
+#include <chrono>
+#include <memory>
+
+#include "app/frame.hpp"
+#include "app/frame_writer.hpp"
+#include "command_line.hpp"
+#include "core/log.hpp"
+#include "core/progress.hpp"
+#include "render_flags.hpp"
+
+namespace lucerna::cli {
+namespace {
+
+struct Options {
+  app::RenderSettings render;
+  app::OutputSettings output;
+};
+
+Json document(const app::Session& session, const app::FrameWriter& writer, double seconds) {
+  Json files = Json::array();
+  for (const auto& path : writer.written()) files.push_back(path.string());
+  return {{"files", std::move(files)},
+          {"scene", session.scene.name},
+          {"pipeline", session.pipeline.name},
+          {"size", {session.settings.size.x, session.settings.size.y}},
+          {"frames", session.frame},
+          {"seconds", seconds},
+          {"renderer", session.device->description()},
+          {"triangles", session.scene.triangleCount()},
+          {"gl_messages", session.glMessages},
+          {"warnings", session.scene.warnings}};
+}
+
+Result<int> render(const Options& options, bool json) {
+  const auto start = std::chrono::steady_clock::now();
+  LUCERNA_TRY(writer, app::FrameWriter::create(options.output, options.render));
+  const std::string& profilePath = options.render.profile;
+  if (!profilePath.empty()) LUCERNA_TRY_VOID(app::ProfileLog::checkPath(profilePath));
+  LUCERNA_TRY(session, app::openSession(options.render, writer.layers()));
+  app::ProfileLog profile(session->device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer");
+
+  Progress progress("rendering", options.render.frames);
+  for (std::uint64_t i = 0; i < options.render.frames; ++i) {
+    LUCERNA_TRY_VOID(app::runFrame(
+        *session, profilePath.empty() ? nullptr : &profile,
+        [&](app::Session& s, const gpu::Texture& output) { return writer.write(s, output); }));
+    progress.advance();
+  }
+  if (!profilePath.empty()) {
+    LUCERNA_TRY_VOID(profile.write(profilePath));
+    log::info("{}", profile.table());
+  }
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  if (json)
+    printJson(document(*session, writer, seconds.count()));
+  else
+    log::info("wrote {}{} in {:.2f} s", writer.written().back().string(),
+              session->frame > 1 ? fmt::format(" and {} more", session->frame - 1) : "",
+              seconds.count());
+  return 0;
+}
+
+}  // namespace
+
+void addRender(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = addCommand(line, line.app, "render", "render a scene into picture files",
+                                 [&line, options] { return render(*options, line.talk.json); });
+  command->add_option("SCENE", options->render.scene, "file, or builtin:NAME?key=value")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output.path,
+                   "out.png, out.exr, out.hdr or frame-%04d.png")
+      ->required();
+  addRenderFlags(*command, options->render);
+  command
+      ->add_option("--layers", options->output.layers, "of EXR: color,depth,normal,albedo (color)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option_function<std::string>(
+          "--exr-type",
+          [options](const std::string& type) {
+            options->output.exrType = type == "float" ? ComponentType::F32 : ComponentType::Half;
+          },
+          "half or float (half); depth is always float")
+      ->check(oneOf({"half", "float"}));
+}
+
+}  // namespace lucerna::cli

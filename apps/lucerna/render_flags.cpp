@@ -1,0 +1,83 @@
+#include "render_flags.hpp"
+
+#include <cmath>
+
+#include "core/text.hpp"
+
+namespace lucerna::cli {
+namespace {
+
+// Unlike CLI::Range, says what the number is for.
+CLI::Validator between(double min, double max, const std::string& unit = "") {
+  const std::string wanted =
+      fmt::format("{:g} to {:g}{}", min, max, unit.empty() ? "" : " " + unit);
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= min && value <= max) return {};
+    return fmt::format("'{}' is not a number from {}", text, wanted);
+  };
+  return CLI::Validator(check, wanted);
+}
+
+std::string checkGl(const std::string& value) {
+  const std::vector<std::string> choices{"auto", "egl"};
+  if (value == "auto" || value == "egl") return {};
+  if (value == "window") return "this program draws without a window; wanted auto or egl";
+  return fmt::format("'{}' is not a choice{}; wanted auto or egl", value,
+                     didYouMean(value, choices));
+}
+
+}  // namespace
+
+CLI::Option* addRepeatable(CLI::App& command, const std::string& name,
+                           std::vector<std::string>& values, const std::string& help) {
+  return command.add_option(name, values, help)->allow_extra_args(false);
+}
+
+void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
+  command.add_option("--pipeline", settings.pipeline,
+                     "shipped NAME, FILE.js or FILE.json (deferred)");
+  addRepeatable(command, "--set", settings.sets,
+                "Pass.param=value, Pass.enabled=false or script.name=value; repeatable");
+  command.add_option_function<std::string>(
+      "--size",
+      [&](const std::string& text) {
+        settings.size = orUsageError("--size", app::sizeFromText(text));
+      },
+      "WIDTHxHEIGHT of the output in pixels (1280x720)");
+  command.add_option("--scale", settings.scale, "rendering size in percent of the output's (100)")
+      ->check(between(25, 400));
+  CLI::Option* camera = command.add_option("--camera", settings.camera,
+                                           "NAME, INDEX or FILE.json (the scene's first)");
+  command
+      .add_option("--camera-path", settings.cameraPath,
+                  "FILE.json of keyframes that the camera follows")
+      ->excludes(camera);
+  command.add_option("--frames", settings.frames, "how many frames (1)")->check(between(1, 1e7));
+  command.add_option("--time", settings.time, "seconds into the scene's animation (0)")
+      ->check(between(-1e6, 1e6, "s"));
+  command.add_option("--time-step", settings.timeStep, "seconds from frame to frame (1/30)")
+      ->check(between(0, 1e6, "s"));
+  command.add_option("--seed", settings.seed, "seed of everything random (0)");
+  command.add_option("--threads", settings.threads, "CPU threads; 0: one a core (0)")
+      ->check(between(0, 1024));
+  command
+      .add_option_function<float>(
+          "--exposure", [&](float value) { settings.exposure = value; },
+          "EV instead of the scene's; one more doubles the brightness")
+      ->check(between(-64, 64, "EV"));
+  command.add_option("--profile", settings.profile,
+                     "FILE.csv or FILE.json: times and counts of every pass");
+  command.add_option("--shaders", settings.shaderFolder,
+                     "folder like src/ whose shaders go before the built-in ones");
+  command
+      .add_option_function<std::string>(
+          "--gl",
+          [&](const std::string& value) {
+            settings.gl = value == "egl" ? gpu::ContextKind::Egl : gpu::ContextKind::Auto;
+          },
+          "auto or egl (auto)")
+      ->check(CLI::Validator(checkGl, "{auto,egl}"));
+}
+
+}  // namespace lucerna::cli

@@ -1,0 +1,10 @@
+// The boxes of the culling hierarchy's leaves over the lit picture.
+// For looking at what Cull works with.
+pipeline({name: "bvh", output: "ToneMap.color"});
+
+pass("Cull");
+pass("GBuffer");
+pass("Lighting");
+pass("Background");
+pass("ShowBvh");
+pass("ToneMap");

@@ -1,0 +1,102 @@
+#include "app/frame.hpp"
+
+#include "core/log.hpp"
+#include "core/progress.hpp"
+#include "scene/view.hpp"
+
+namespace lucerna::app {
+namespace {
+
+// The scene at this frame's time, on the CPU and on the GPU.
+void applySceneChanges(Session& s) {
+  if (!s.scene.animations.empty()) {
+    const auto moved = scene::animate(s.scene, static_cast<float>(s.time()));
+    render::updateMoved(*s.device, s.gpuScene, moved);
+    render::updateLights(*s.device, s.lights, s.scene);
+  }
+  if (s.cameraPath) moveCamera(s.scene, s.camera, s.cameraPath->at(s.time()));
+  const uvec2 size = s.settings.renderSize();
+  const float aspect =
+      static_cast<float>(s.settings.size.x) / static_cast<float>(s.settings.size.y);
+  render::updateView(*s.device, s.view, scene::viewOf(s.scene, s.scene.cameras[s.camera], aspect),
+                     size);
+}
+
+// A pipeline that does not load any more is reported, and the last good one goes on.
+void reloadChangedFiles(Session& s) {
+  if (!s.watch) return;
+  if (const int count = s.device->reloadChangedShaders(); count > 0)
+    log::info("reloaded {} shader program{}", count, count == 1 ? "" : "s");
+  std::error_code noFile;
+  const auto time = std::filesystem::last_write_time(s.settings.pipeline, noFile);
+  if (noFile || time == s.pipelineTime) return;
+  s.pipelineTime = time;
+  auto pipeline = readPipeline(s.registry, s.settings.pipeline, s.settings.sets, s.settings.seed);
+  if (!pipeline) {
+    log::error("{}", pipeline.error().message);
+    return;
+  }
+  s.pipeline = std::move(*pipeline);
+  s.rebuild = true;
+}
+
+Status rebuildSchedule(Session& s) {
+  if (!s.rebuild) return {};
+  const auto validation = graph::validate(s.pipeline, s.registry, s.device->capabilities());
+  if (!validation.ok()) return error(ErrorKind::Pipeline, "{}", validation.text());
+  LUCERNA_TRY(layers, findLayers(s.pipeline, *validation.plan, s.wantedLayers));
+  s.layers = std::move(layers);
+  std::vector<std::string> kept;
+  for (const LayerSource& layer : s.layers) kept.push_back(layer.port);
+  LUCERNA_TRY_VOID(s.executor->setPipeline(s.pipeline, s.settings.renderSize(), kept));
+  s.rebuild = false;
+  return {};
+}
+
+Status runSteps(Session& s, const FrameSink& sink) {
+  graph::Imports shared, view;
+  shared.set("scene", s.gpuScene);
+  shared.set("lights", s.lights);
+  view.set("view", s.view);
+  const render::SceneChanges& changes = s.gpuScene.changes;
+  const graph::FrameInput input{.time = s.time(),
+                                .timeStep = s.settings.timeStep,
+                                .frame = s.frame,
+                                .seed = s.settings.seed,
+                                .cut = s.frame == 0,
+                                .sceneChanged = changes.everything || changes.lights ||
+                                                changes.materials || !changes.movedObjects.empty(),
+                                .shared = std::move(shared),
+                                .views = {&view, 1}};
+  Status taken;
+  LUCERNA_TRY_VOID(s.executor->execute(
+      input, [&](int, const gpu::Texture& output) { taken = sink(s, output); }));
+  return taken;
+}
+
+void finishFrame(Session& s, ProfileLog* profile) {
+  if (profile) profile->add(s.executor->profile());
+  for (const std::string& message : s.device->takeDebugMessages()) {
+    log::warning("OpenGL says: {}", message);
+    ++s.glMessages;
+  }
+  s.gpuScene.changes = {
+      .everything = false, .movedObjects = {}, .lights = false, .materials = false};
+  ++s.frame;
+}
+
+}  // namespace
+
+Status runFrame(Session& session, ProfileLog* profile, const FrameSink& sink) {
+  if (Progress::cancelled())
+    return error(ErrorKind::Cancelled, "cancelled before frame {}", session.frame);
+  applySceneChanges(session);
+  reloadChangedFiles(session);
+  LUCERNA_TRY_VOID(rebuildSchedule(session));
+  session.executor->setProfiling(profile != nullptr);
+  LUCERNA_TRY_VOID(runSteps(session, sink));  // presents or writes
+  finishFrame(session, profile);
+  return {};
+}
+
+}  // namespace lucerna::app

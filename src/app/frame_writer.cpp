@@ -1,0 +1,88 @@
+#include "app/frame_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/resample.hpp"
+#include "core/log.hpp"
+#include "image/image_file.hpp"
+
+namespace lucerna::app {
+namespace {
+
+// Floats are taken as linear and encoded; 8-bit outputs are encoded already.
+Image encodedRgb(const Image& image) {
+  if (image.type() == ComponentType::U8) return converted(image, ComponentType::U8, 3);
+  const Image linear = converted(image, ComponentType::F32, 3);
+  Image result(linear.width(), linear.height(), 3, ComponentType::U8);
+  const auto from = linear.as<float>();
+  const auto to = result.as<std::uint8_t>();
+  for (std::size_t i = 0; i < from.size(); ++i)
+    to[i] = static_cast<std::uint8_t>(std::lround(255.f * srgbFromLinear(from[i])));
+  return result;
+}
+
+// Distances and directions are not averaged.
+Image resizedLayer(const Image& image, LayerKind kind, uvec2 size) {
+  return kind == LayerKind::Color || kind == LayerKind::Albedo ? resizedLinear(image, size)
+                                                               : resizedNearest(image, size);
+}
+
+}  // namespace
+
+Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
+                                        const RenderSettings& settings) {
+  LUCERNA_TRY(name, FrameName::parse(output.path, settings.frames));
+  const std::filesystem::path folder = name.at(0).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder))
+    return error(ErrorKind::Usage, "-o: the folder '{}' does not exist; make it first",
+                 folder.string());
+  FrameWriter writer(std::move(name));
+  writer.exrType_ = output.exrType;
+  for (const std::string& layer : output.layers) {
+    LUCERNA_TRY(kind, layerFromName(layer));
+    if (std::find(writer.layers_.begin(), writer.layers_.end(), kind) == writer.layers_.end())
+      writer.layers_.push_back(kind);
+  }
+  if (!output.layers.empty() && writer.name_.kind() != OutputKind::Exr)
+    return error(ErrorKind::Usage, "--layers: '{}' holds one picture; layers need -o NAME.exr",
+                 output.path);
+  if (writer.layers_.empty() && writer.name_.kind() != OutputKind::Png)
+    writer.layers_.push_back(LayerKind::Color);
+  return writer;
+}
+
+Status FrameWriter::write(Session& session, const gpu::Texture& output) {
+  const std::filesystem::path path = name_.at(session.frame);
+  if (name_.kind() == OutputKind::Png) {
+    const Image picture = encodedRgb(session.device->download(output));
+    LUCERNA_TRY_VOID(writeImage(path, resizedSrgb(picture, session.settings.size)));
+  } else {
+    LUCERNA_TRY_VOID(writeLayers(session, path));
+  }
+  written_.push_back(path);
+  return {};
+}
+
+Status FrameWriter::writeLayers(Session& session, const std::filesystem::path& path) {
+  const gpu::Texture* depth = nullptr;
+  for (const LayerSource& source : session.layers)
+    if (source.kind == LayerKind::Depth) depth = session.executor->kept(source.port);
+  std::vector<ExrLayer> layers;
+  for (const LayerSource& source : session.layers) {
+    const gpu::Texture* texture = session.executor->kept(source.port);
+    if (!texture)
+      return error(ErrorKind::Pipeline, "{}: '{}' is not a texture, so it cannot be written",
+                   path.string(), source.port);
+    ExrLayer layer = readLayer(*session.device, source.kind, *texture, depth, session.view.view);
+    layer.image = resizedLayer(layer.image, source.kind, session.settings.size);
+    // A half reaches to 65504 with eleven bits: too little for distances.
+    if (name_.kind() == OutputKind::Exr && source.kind != LayerKind::Depth)
+      layer.image = converted(layer.image, exrType_, layer.image.channels());
+    layers.push_back(std::move(layer));
+  }
+  return name_.kind() == OutputKind::Hdr ? writeImage(path, layers.front().image)
+                                         : writeExr(path, layers);
+}
+
+}  // namespace lucerna::app

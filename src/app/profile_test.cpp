@@ -1,0 +1,52 @@
+#include "app/profile.hpp"
+
+#include <gmock/gmock.h>
+
+namespace lucerna::app {
+namespace {
+
+using testing::HasSubstr;
+
+ProfileLog exampleLog() {
+  ProfileLog log("cpu-after-finish");
+  for (std::uint64_t frame = 0; frame < 3; ++frame) {
+    graph::StepProfile step;
+    step.row = "Ao, wide";
+    step.cpuMs = 1 + static_cast<double>(frame);
+    step.gpuMs = 10 * step.cpuMs;
+    step.counters.draws = 2;
+    step.counters.primitives = 7;
+    step.textureBytes = 1 << 20;
+    log.add({.frame = frame, .steps = {step}, .cpuMs = step.cpuMs, .gpuMs = step.gpuMs});
+  }
+  return log;
+}
+
+TEST(Profile, CsvHasOneRowAPassAndFrame) {
+  EXPECT_EQ(exampleLog().csv(),
+            "frame,pass,view,cpu_ms,gpu_ms,draws,primitives,texture_bytes,gpu_clock\n"
+            "0,\"Ao, wide\",0,1.0000,10.0000,2,7,1048576,cpu-after-finish\n"
+            "1,\"Ao, wide\",0,2.0000,20.0000,2,7,1048576,cpu-after-finish\n"
+            "2,\"Ao, wide\",0,3.0000,30.0000,2,7,1048576,cpu-after-finish\n");
+}
+
+TEST(Profile, JsonNamesTheClock) {
+  EXPECT_THAT(exampleLog().json(), HasSubstr("\"gpu_clock\": \"cpu-after-finish\""));
+  EXPECT_THAT(exampleLog().json(), HasSubstr("\"primitives\": 7"));
+}
+
+// Frames 1 and 2 of three: 2.5 and 25 ms.
+TEST(Profile, TheTableLeavesTheFirstFrameOut) {
+  EXPECT_THAT(exampleLog().table(), HasSubstr("2.50"));
+  EXPECT_THAT(exampleLog().table(), HasSubstr("25.00"));
+  EXPECT_THAT(exampleLog().table(), HasSubstr("mean of 2 frames (the first left out)"));
+}
+
+TEST(Profile, OnlyCsvAndJsonAreWritten) {
+  EXPECT_TRUE(ProfileLog::checkPath("a.csv"));
+  EXPECT_TRUE(ProfileLog::checkPath("a.json"));
+  EXPECT_EQ(ProfileLog::checkPath("a.txt").error().kind, ErrorKind::Usage);
+}
+
+}  // namespace
+}  // namespace lucerna::app

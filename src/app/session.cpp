@@ -1,0 +1,109 @@
+#include "app/session.hpp"
+
+#include <future>
+
+#include "core/log.hpp"
+#include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "passes/register_passes.hpp"
+#include "scene/load.hpp"
+#include "script/load_pipeline.hpp"
+
+namespace lucerna::app {
+namespace {
+
+constexpr std::string_view kScriptPrefix = "script.";
+
+// Context, device and shaders.
+Status openDevice(Session& session) {
+  LUCERNA_TRY(context, gpu::Context::create(session.settings.gl));
+  session.context = std::move(context);
+  LUCERNA_TRY(device, gpu::Device::create(*session.context));
+  session.device = std::move(device);
+  passes::registerShaders(session.device->shaderSources());
+  if (!session.settings.shaderFolder.empty())
+    session.device->shaderSources().setRoot(session.settings.shaderFolder);
+  log::debug("{} ({})", session.device->description(), session.context->platform());
+  return {};
+}
+
+Status takeScene(Session& session, Result<scene::Scene> scene) {
+  if (!scene) return scene.error();
+  session.scene = std::move(scene).value();
+  for (const std::string& warning : session.scene.warnings)
+    log::warning("{}: {}", session.scene.name, warning);
+  if (session.settings.exposure) session.scene.exposure = *session.settings.exposure;
+  LUCERNA_TRY(camera, chooseCamera(session.scene, session.settings.camera));
+  session.camera = camera;
+  if (session.cameraPath)
+    session.camera = addCamera(session.scene, session.settings.cameraPath,
+                               session.cameraPath->at(session.settings.time));
+  return {};
+}
+
+Status checkFolder(const std::string& folder) {
+  if (folder.empty() || std::filesystem::is_directory(folder)) return {};
+  return error(ErrorKind::Usage, "--shaders: '{}' is not a folder; wanted one laid out like src/",
+               folder);
+}
+
+}  // namespace
+
+graph::Registry makeRegistry() {
+  graph::Registry registry;
+  passes::registerPasses(registry);
+  return registry;
+}
+
+Result<graph::Pipeline> readPipeline(const graph::Registry& registry, const std::string& nameOrFile,
+                                     const std::vector<std::string>& sets, std::uint64_t seed) {
+  script::ScriptInput input{.params = {}, .seed = seed};
+  std::vector<std::string> rowSettings;
+  for (const std::string& setting : sets) {
+    const std::size_t equals = setting.find('=');
+    if (!setting.starts_with(kScriptPrefix) || equals == std::string::npos) {
+      rowSettings.push_back(setting);
+      continue;
+    }
+    input.params[setting.substr(kScriptPrefix.size(), equals - kScriptPrefix.size())] =
+        setting.substr(equals + 1);
+  }
+  LUCERNA_TRY(pipeline, script::loadPipeline(nameOrFile, input));
+  for (const std::string& setting : rowSettings)
+    LUCERNA_TRY_VOID(graph::applySetting(pipeline, registry, setting));
+  return pipeline;
+}
+
+Result<std::unique_ptr<Session>> openSession(const RenderSettings& settings,
+                                             const std::vector<LayerKind>& layers) {
+  setThreadCount(settings.threads);
+  auto session = std::make_unique<Session>();
+  session->settings = settings;
+  session->wantedLayers = layers;
+  session->registry = makeRegistry();
+  LUCERNA_TRY_VOID(checkFolder(settings.shaderFolder));
+  if (!settings.cameraPath.empty()) {
+    LUCERNA_TRY(path, CameraPath::read(settings.cameraPath));
+    session->cameraPath = std::move(path);
+  }
+  LUCERNA_TRY(pipeline,
+              readPipeline(session->registry, settings.pipeline, settings.sets, settings.seed));
+  session->pipeline = std::move(pipeline);
+  std::error_code ignored;  // shipped pipelines have no file
+  session->pipelineTime = std::filesystem::last_write_time(settings.pipeline, ignored);
+
+  auto loading = std::async(std::launch::async, [&] { return scene::loadScene(settings.scene); });
+  const Status opened = openDevice(*session);
+  Result<scene::Scene> scene = loading.get();
+  LUCERNA_TRY_VOID(opened);
+  LUCERNA_TRY_VOID(takeScene(*session, std::move(scene)));
+
+  gpu::Device& device = *session->device;
+  scene::animate(session->scene, static_cast<float>(session->time()));
+  render::upload(device, session->gpuScene, session->scene);
+  render::updateLights(device, session->lights, session->scene);
+  session->executor = std::make_unique<graph::Executor>(device, session->registry);
+  return session;
+}
+
+}  // namespace lucerna::app

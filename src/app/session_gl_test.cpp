@@ -1,0 +1,165 @@
+#include "app/session.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/frame.hpp"
+#include "app/frame_writer.hpp"
+#include "core/file.hpp"
+#include "image/image_file.hpp"
+
+namespace lucerna::app {
+namespace {
+
+using testing::HasSubstr;
+
+class SessionTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string pattern = testing::TempDir() + "lucerna-session-XXXXXX";
+    folder_ = mkdtemp(pattern.data());
+    settings_.scene = "builtin:atrium?lights=2";
+    settings_.size = {96, 54};
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  // Renders settings_ into `name` and returns the path of the first frame.
+  std::string render(const std::string& name, std::vector<std::string> layers = {},
+                     ComponentType type = ComponentType::Half) {
+    const OutputSettings output{
+        .path = folder_ / name, .layers = std::move(layers), .exrType = type};
+    auto writer = FrameWriter::create(output, settings_);
+    EXPECT_TRUE(writer) << writer.error().message;
+    auto session = openSession(settings_, writer->layers());
+    EXPECT_TRUE(session) << session.error().message;
+    for (std::uint64_t i = 0; i < settings_.frames; ++i) {
+      const Status status = runFrame(
+          **session, nullptr,
+          [&](Session& s, const gpu::Texture& texture) { return writer->write(s, texture); });
+      EXPECT_TRUE(status) << status.error().message;
+    }
+    EXPECT_EQ((*session)->glMessages, 0);
+    return writer->written().empty() ? "" : writer->written().front().string();
+  }
+
+  std::filesystem::path folder_;
+  RenderSettings settings_;
+};
+
+TEST_F(SessionTest, WritesAPictureOfTheOutputsSizeAtAnyScale) {
+  for (const int scale : {25, 100, 200}) {
+    settings_.scale = scale;
+    const auto image = readImage(render(std::to_string(scale) + ".png"));
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_EQ(image->width(), 96);
+    EXPECT_EQ(image->height(), 54);
+    EXPECT_EQ(image->type(), ComponentType::U8);
+  }
+}
+
+TEST_F(SessionTest, TheSameSettingsGiveTheSameBytes) {
+  const auto first = readFile(render("a.png")), second = readFile(render("b.png"));
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(*first, *second);
+}
+
+TEST_F(SessionTest, ExrHoldsTheLayersAskedFor) {
+  const std::string path =
+      render("layers.exr", {"color", "depth", "normal", "albedo"}, ComponentType::F32);
+  const auto layers = readExrLayers(path);
+  ASSERT_TRUE(layers) << layers.error().message;
+  std::map<std::string, const Image*> byName;
+  for (const ExrLayer& layer : *layers) byName[layer.name] = &layer.image;
+  ASSERT_EQ(byName.size(), 4u);
+  ASSERT_TRUE(byName.count("") && byName.count("depth") && byName.count("normal") &&
+              byName.count("albedo"));
+
+  // Inside a hall, depths are metres to its walls, normals unit vectors where depth is finite.
+  const Image& depth = *byName["depth"];
+  const Image& normal = *byName["normal"];
+  int covered = 0;
+  for (int y = 0; y < depth.height(); ++y)
+    for (int x = 0; x < depth.width(); ++x) {
+      const float metres = depth.pixel<float>(x, y)[0];
+      EXPECT_GT(metres, 0.f);
+      if (metres > 1e4f) continue;
+      ++covered;
+      const float* n = normal.pixel<float>(x, y);
+      EXPECT_NEAR(glm::length(vec3(n[0], n[1], n[2])), 1.f, 1e-3f);
+    }
+  EXPECT_GT(covered, depth.width() * depth.height() / 2);
+}
+
+TEST_F(SessionTest, ALayerThatThePipelineLacksIsAUsageError) {
+  settings_.pipeline = "forward";
+  auto session = openSession(settings_, {LayerKind::Albedo});
+  ASSERT_TRUE(session) << session.error().message;
+  const Status status =
+      runFrame(**session, nullptr, [](Session&, const gpu::Texture&) { return Status(); });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Usage);
+  EXPECT_THAT(status.error().message, HasSubstr("albedo"));
+}
+
+TEST_F(SessionTest, ExposureMakesThePictureBrighter) {
+  const auto sum = [](const Image& image) {
+    double total = 0;
+    for (const std::uint8_t value : image.as<std::uint8_t>()) total += value;
+    return total;
+  };
+  settings_.exposure = -3.f;
+  const auto dark = readImage(render("dark.png"));
+  settings_.exposure = 1.f;
+  const auto bright = readImage(render("bright.png"));
+  ASSERT_TRUE(dark && bright);
+  EXPECT_GT(sum(*bright), 1.5 * sum(*dark));
+}
+
+TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
+  const std::filesystem::path file = folder_ / "mine.js";
+  const auto write = [&](const std::string& text, int seconds) {
+    ASSERT_TRUE(writeText(file, text));
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(seconds));
+  };
+  const std::string rows = "pass('Cull'); pass('GBuffer'); pass('Lighting'); ";
+  write(rows + "pass('ToneMap');", 0);
+  settings_.pipeline = file;
+  auto opened = openSession(settings_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  Session& session = **opened;
+  session.watch = true;
+  const FrameSink ignore = [](Session&, const gpu::Texture&) { return Status(); };
+  ASSERT_TRUE(runFrame(session, nullptr, ignore));
+  EXPECT_EQ(session.pipeline.passes.size(), 4u);
+
+  write(rows + "pass('Background'); pass('ToneMap');", 2);
+  ASSERT_TRUE(runFrame(session, nullptr, ignore));
+  EXPECT_EQ(session.pipeline.passes.size(), 5u);
+
+  write("pass('Cull'", 4);
+  ASSERT_TRUE(runFrame(session, nullptr, ignore));
+  EXPECT_EQ(session.pipeline.passes.size(), 5u);
+}
+
+TEST_F(SessionTest, AFaultyPipelineRendersNothing) {
+  const std::filesystem::path file = folder_ / "bad.json";
+  ASSERT_TRUE(writeText(file, R"({"lucerna": "pipeline/1", "passes": [{"type": "Lightning"}]})"));
+  settings_.pipeline = file;
+  auto session = openSession(settings_);
+  ASSERT_TRUE(session) << session.error().message;
+  bool drawn = false;
+  const Status status = runFrame(**session, nullptr, [&](Session&, const gpu::Texture&) {
+    drawn = true;
+    return Status();
+  });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
+  EXPECT_THAT(status.error().message, HasSubstr("did you mean 'Lighting'"));
+  EXPECT_FALSE(drawn);
+}
+
+}  // namespace
+}  // namespace lucerna::app

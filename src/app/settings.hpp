@@ -1,0 +1,48 @@
+// What the user asks for: the common flags of everything that renders, as values.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/math/math.hpp"
+#include "core/result.hpp"
+#include "gpu/context.hpp"
+#include "image/image.hpp"
+
+namespace lucerna::app {
+
+inline constexpr int kMaxSide = 16384;  // px of an output, and of a rendering
+
+struct RenderSettings {
+  std::string scene;
+  std::string pipeline = "deferred";  // shipped name, .js or .json
+  std::vector<std::string> sets;      // "Pass.param=value", "script.name=value"
+  uvec2 size{1280, 720};              // px of the output
+  int scale = 100;                    // percent: rendering size / output size
+  std::string camera;                 // "": the scene's first
+  std::string cameraPath;             // file; "": none
+  std::uint64_t frames = 1;
+  double time = 0, timeStep = 1.0 / 30;  // s
+  std::uint64_t seed = 0;
+  int threads = 0;                // 0: as many as the machine has cores
+  std::optional<float> exposure;  // EV; the scene's if absent
+  std::string profile;            // .csv or .json; "": none
+  std::string shaderFolder;       // read before the built-in shaders; "": none
+  gpu::ContextKind gl = gpu::ContextKind::Auto;
+
+  // Pixels of the rendering: `scale` percent of `size`, rounded, at least 1.
+  uvec2 renderSize() const;
+};
+
+// "1280x720".
+Result<uvec2> sizeFromText(const std::string& text);
+
+struct OutputSettings {
+  std::string path;                 // .png .exr .hdr, with %04d if there are several frames
+  std::vector<std::string> layers;  // of EXR; empty: colour only
+  ComponentType exrType = ComponentType::Half;
+};
+
+}  // namespace lucerna::app

@@ -1,0 +1,228 @@
+#!/usr/bin/env python3
+"""The command line from outside: exit codes, messages, JSON, and that no partial file stays behind.
+
+Usage: cli_test.py PROGRAM [unittest arguments]
+"""
+import csv
+import json
+import os
+import pathlib
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = ""
+SMALL = ["--size", "64x36"]
+ATRIUM = "builtin:atrium?lights=2"
+
+
+def png_size(path):
+    return struct.unpack(">II", pathlib.Path(path).read_bytes()[16:24])
+
+
+class CliTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="lucerna-cli-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def lucerna(self, *arguments, environment=None):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=120,
+                              cwd=self.folder, env={**os.environ, **(environment or {})}, check=False)
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.write_text(text)
+        return path
+
+    def assert_ok(self, run):
+        self.assertEqual(run.returncode, 0, run.stderr)
+
+    def assert_fails(self, code, *words, arguments, environment=None):
+        """Runs, and expects the exit code, every word on stderr, nothing on stdout, and no new file."""
+        before = sorted(self.folder.iterdir())
+        run = self.lucerna(*arguments, environment=environment)
+        self.assertEqual(run.returncode, code, f"{arguments}\n{run.stderr}")
+        for word in words:
+            self.assertIn(word, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertEqual(sorted(self.folder.iterdir()), before, "a file was left behind")
+        return run
+
+    # Usage: exit 2
+
+    def test_unknown_words_are_answered_with_what_was_meant(self):
+        self.assert_fails(2, "'rendr'", "did you mean 'render'", arguments=["rendr"])
+        self.assert_fails(2, "'--sise'", "did you mean '--size'", arguments=["render", ATRIUM, "--sise=3", "-o", "a.png"])
+        self.assert_fails(2, "'lst'", "did you mean 'list'", arguments=["pass", "lst"])
+        self.assert_fails(2, "'extra'", arguments=["info", ATRIUM, "extra"])
+        self.assert_fails(2, "'GBufer'", "did you mean 'GBuffer'", arguments=["pass", "show", "GBufer"])
+        self.assert_fails(2, "did you mean 'deferred'", arguments=["pipeline", "check", "defered"])
+
+    def test_bad_values_say_what_is_wanted(self):
+        def fails(*words, flags):
+            self.assert_fails(2, *words, arguments=["render", ATRIUM, "-o", "a.png", *flags])
+        fails("--size", "1280x720", flags=["--size", "big"])
+        fails("--scale", "25 to 400", flags=["--scale", "10"])
+        fails("--frames", "'0'", flags=["--frames", "0"])
+        fails("--gl", "without a window", flags=["--gl", "window"])
+        fails("--gl", "did you mean 'egl'", flags=["--gl", "elg"])
+        fails("--exposure", "'bright'", flags=["--exposure", "bright"])
+        fails("--set", flags=["--set"])
+        fails("frame-%04d.png", flags=["--frames", "2"])
+        fails("--profile", ".csv or .json", flags=["--profile", "p.txt"])
+        fails("--layers", ".exr", flags=["--layers", "depth"])
+        fails("--shaders", flags=["--shaders", "nowhere"])
+        fails("ToneMap", "exposure", flags=["--set", "ToneMap.exposur=1"])
+        fails("'script.x'", flags=["--pipeline", self.write("p.json", '{"lucerna": "pipeline/1", "passes": []}'),
+                                   "--set", "script.x=1"])
+        self.assert_fails(2, ".png, .exr, .hdr", arguments=["render", ATRIUM, "-o", "a.mp4"])
+        self.assert_fails(2, "does not exist", arguments=["render", ATRIUM, "-o", "nowhere/a.png"])
+        self.assert_fails(2, "--output is required", arguments=["render", ATRIUM])
+        self.assert_fails(2, "'5'", "not a camera", arguments=["render", ATRIUM, "-o", "a.png", "--camera", "5"])
+
+    def test_no_words_print_the_help(self):
+        self.assert_fails(2, "render", "compare", arguments=[])
+
+    # Input: exit 3
+
+    def test_unreadable_input(self):
+        bad = self.write("bad.gltf", "{")
+        missing = self.folder / "missing.gltf"
+        self.assert_fails(3, "bad.gltf", arguments=["render", bad, "-o", "a.png"])
+        self.assert_fails(3, "missing.gltf", arguments=["render", missing, "-o", "a.png"])
+        self.assert_fails(3, "missing.gltf", arguments=["info", missing])
+        self.assert_fails(3, "missing.json", arguments=["render", ATRIUM, "-o", "a.png", "--camera", "missing.json"])
+        path = self.write("path.json", '{"lucerna": "camera-path/1", "keyframes": []}')
+        self.assert_fails(3, "path.json", "keyframe", arguments=["render", ATRIUM, "-o", "a.png", "--camera-path", path])
+        self.assert_fails(3, "nothing.png", arguments=["compare", "nothing.png", "nothing.png"])
+
+    # Pipelines, scripts, shaders: exit 5
+
+    def test_faulty_pipelines(self):
+        script = self.write("p.js", "pass('Cull');\npass('GBufer');\npass('Lighting', {reads: {depth: 'Nobody.depth'}});\n")
+        run = self.assert_fails(5, "p.js:2", "did you mean 'GBuffer'", "p.js:3", "Nobody",
+                                arguments=["pipeline", "check", script])
+        self.assert_fails(5, "p.js:2", arguments=["render", ATRIUM, "-o", "a.png", "--pipeline", script])
+        self.assertNotIn("terminate", run.stderr)
+        self.assert_fails(5, "s.js:2: SyntaxError",
+                          arguments=["pipeline", "print", self.write("s.js", "pass('Cull'\n;")])
+        self.assert_fails(5, "row 1", arguments=["pipeline", "check", self.write(
+            "p.json", '{"lucerna": "pipeline/1", "passes": [{"typ": "Cull"}]}')])
+
+    def test_a_script_without_end_is_stopped(self):
+        start = time.monotonic()
+        self.assert_fails(5, "loop.js", "5 s", arguments=["pipeline", "check", self.write("loop.js", "for (;;) {}")])
+        self.assertLess(time.monotonic() - start, 8)
+
+    def test_a_shader_that_does_not_compile(self):
+        folder = self.folder / "shaders" / "passes" / "tone_map"
+        folder.mkdir(parents=True)
+        (folder / "tone_map.frag").write_text("void main() {\n  nonsense;\n}\n")
+        self.assert_fails(5, "passes/tone_map/tone_map.frag:2", "nonsense",
+                          arguments=["render", ATRIUM, *SMALL, "-o", "a.png", "--shaders", "shaders"])
+
+    def test_a_driver_that_lacks_a_feature(self):
+        caps = self.write("caps.json", '{"name": "poor", "features": [], "renderable": ["Rgba8Unorm"]}')
+        run = self.lucerna("pipeline", "check", "deferred", "--caps", caps, "--json")
+        self.assertEqual(run.returncode, 5)
+        faults = json.loads(run.stdout)["faults"]
+        self.assertIn("UnsupportedFormat", {fault["kind"] for fault in faults})
+
+    def test_without_a_driver(self):
+        self.assert_fails(4, "OpenGL", "apt-get install", arguments=["doctor"],
+                          environment={"__EGL_VENDOR_LIBRARY_FILENAMES": "/nowhere.json"})
+
+    # What works
+
+    def test_render_writes_pictures_and_one_json_document(self):
+        run = self.lucerna("render", ATRIUM, *SMALL, "--frames", 2, "--time-step", "0.5", "-o", "f-%02d.png",
+                           "--profile", "p.csv", "--json")
+        self.assert_ok(run)
+        document = json.loads(run.stdout)
+        self.assertEqual(document["files"], ["f-00.png", "f-01.png"])
+        self.assertEqual(document["gl_messages"], 0)
+        self.assertEqual(png_size(self.folder / "f-01.png"), (64, 36))
+        with open(self.folder / "p.csv", newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual({row["frame"] for row in rows}, {"0", "1"})
+        self.assertLessEqual({"Cull", "GBuffer", "Lighting", "ToneMap"}, {row["pass"] for row in rows})
+        self.assertGreater(sum(int(row["primitives"]) for row in rows if row["pass"] == "GBuffer"), 100)
+
+    def test_render_to_exr_hdr_and_profile_as_json(self):
+        for name, flags in (("a.exr", ["--layers", "color,depth,normal,albedo", "--exr-type", "float"]), ("a.hdr", [])):
+            self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, *flags, "-o", name, "--profile", "p.json"))
+            self.assertGreater((self.folder / name).stat().st_size, 1000)
+            self.assertEqual(json.loads((self.folder / "p.json").read_text())["lucerna"], "profile/1")
+
+    def test_cameras(self):
+        camera = self.write("c.json", '{"lucerna": "camera/1", "position": [0, 2, 0], "target": [0, 3, -9], "fovY": 60}')
+        path = self.write("path.json", '{"lucerna": "camera-path/1", "keyframes": ['
+                          '{"time": 0, "position": [0, 2, 0], "target": [0, 3, -9], "fovY": 60},'
+                          '{"time": 1, "position": [2, 2, 0], "target": [0, 3, -9], "fovY": 60}]}')
+        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--camera", camera, "-o", "a.png"))
+        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--camera-path", path, "--frames", 2, "--time-step", 1,
+                                    "-o", "p-%d.png"))
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "p-0.png").read_bytes())
+        self.assertNotEqual((self.folder / "p-0.png").read_bytes(), (self.folder / "p-1.png").read_bytes())
+
+    def test_compare(self):
+        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "-o", "a.png"))
+        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--exposure", "-2", "-o", "b.png"))
+        self.assert_ok(self.lucerna("render", ATRIUM, "--size", "32x32", "-o", "c.png"))
+        same = self.lucerna("compare", "a.png", "a.png", "--json", "--fail-above", "0")
+        self.assert_ok(same)
+        self.assertEqual(json.loads(same.stdout)["flip"]["max"], 0)
+        other = self.lucerna("compare", "a.png", "b.png", "--json", "--fail-above", "0.001", "--heatmap", "e.png")
+        self.assertEqual(other.returncode, 1)
+        self.assertEqual(set(json.loads(other.stdout)), {"flip", "psnr", "ssim", "rmse"})
+        self.assertEqual(set(json.loads(other.stdout)["flip"]), {"mean", "weighted_median", "p95", "max"})
+        self.assertEqual(png_size(self.folder / "e.png"), (64, 36))
+        self.assert_fails(3, "64x36", "32x32", arguments=["compare", "a.png", "c.png"])
+
+    def test_json_everywhere(self):
+        for arguments in (["info", ATRIUM], ["doctor"], ["pass", "list"], ["pass", "show", "ToneMap"],
+                          ["pipeline", "check", "deferred"], ["pipeline", "print", "forward"],
+                          ["pipeline", "graph", "deferred", "-o", "d.svg"]):
+            run = self.lucerna(*arguments, "--json")
+            self.assert_ok(run)
+            json.loads(run.stdout)
+            plain = self.lucerna(*arguments)
+            self.assert_ok(plain)
+        self.assertIn("<svg", (self.folder / "d.svg").read_text())
+        failed = self.lucerna("info", "missing.gltf", "--json")
+        self.assertEqual(failed.returncode, 3)
+        self.assertEqual(json.loads(failed.stdout)["error"]["code"], 3)
+
+    def test_shipped_pipelines_are_valid_and_render(self):
+        for name in ("deferred", "forward", "gbuffer", "bvh"):
+            self.assert_ok(self.lucerna("pipeline", "check", name))
+            self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", name, "-o", f"{name}.png"))
+
+    def test_quiet_says_nothing(self):
+        run = self.lucerna("render", ATRIUM, *SMALL, "-o", "a.png", "--quiet")
+        self.assert_ok(run)
+        self.assertEqual(run.stdout + run.stderr, "")
+
+    def test_interrupt_ends_with_130_and_leaves_no_partial_file(self):
+        process = subprocess.Popen([PROGRAM, "render", ATRIUM, *SMALL, "--frames", "100000", "-o", "f-%06d.png"],
+                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 60
+        while not list(self.folder.glob("f-*.png")) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, errors)
+        for path in self.folder.iterdir():
+            self.assertTrue(path.name.startswith("f-") and path.suffix == ".png", path.name)
+            self.assertEqual(png_size(path), (64, 36))
+            self.assertTrue(path.read_bytes().endswith(b"IEND\xaeB`\x82"), path.name)
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
