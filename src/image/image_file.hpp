@@ -33,15 +33,17 @@ struct ImageInfo {
 // Reads only the header.
 Result<ImageInfo> imageInfo(std::span<const std::byte> bytes, const std::string& name);
 
-// .png (U8/U16, 1 to 4 channels), .hdr (F32), .exr (F32 or Half). Writes beside the target and renames.
+// .png (U8/U16, 1 to 4 channels), .hdr (F32), .exr (F32 or Half). Writes beside the target and
+// renames.
 Status writeImage(const std::filesystem::path& path, const Image& image);
 
 // One file with several named layers; "" is the main one (R, G, B, A), "depth" gives depth.Z or
 // depth.R..., as the channel names say.
 struct ExrLayer {
   std::string name;
-  std::vector<std::string> channels;  // as many as the image has, e.g. {"R","G","B"}, {"Z"}, {"X","Y","Z"}
-  Image image;                        // F32 or Half; all layers have the same size
+  std::vector<std::string>
+      channels;  // as many as the image has, e.g. {"R","G","B"}, {"Z"}, {"X","Y","Z"}
+  Image image;   // F32 or Half; all layers have the same size
 };
 Status writeExr(const std::filesystem::path& path, const std::vector<ExrLayer>& layers);
 Result<std::vector<ExrLayer>> readExrLayers(const std::filesystem::path& path);

@@ -1,0 +1,96 @@
+#include "image/exr_header.hpp"
+
+#include <algorithm>
+
+namespace lucerna::codec {
+namespace {
+
+constexpr std::size_t kMaxNameBytes = 255;
+constexpr std::uint32_t kUnsupportedFlags = 0x800;  // deep data
+constexpr std::uint32_t kTiledFlag = 0x200;
+
+// Reads forward; `failed` once anything lies beyond the end.
+class Cursor {
+ public:
+  explicit Cursor(ByteView bytes) : bytes_(bytes) {}
+  bool failed() const { return failed_; }
+
+  ByteView take(std::size_t count) {
+    if (failed_ || count > bytes_.size() - at_) {
+      failed_ = true;
+      return {};
+    }
+    at_ += count;
+    return bytes_.subspan(at_ - count, count);
+  }
+  std::uint32_t u32() { return little32(take(4), 0); }
+  std::int32_t i32() { return static_cast<std::int32_t>(u32()); }
+  std::string text() {
+    std::string result;
+    while (!failed_) {
+      const std::uint32_t c = byteAt(take(1), 0);
+      if (c == 0) break;
+      result += static_cast<char>(c);
+      if (result.size() > kMaxNameBytes) failed_ = true;
+    }
+    return result;
+  }
+
+ private:
+  ByteView bytes_;
+  std::size_t at_ = 0;
+  bool failed_ = false;
+};
+
+bool readChannels(Cursor value, ExrHeader& header) {
+  for (;;) {
+    ExrChannel channel;
+    channel.name = value.text();
+    if (channel.name.empty()) return !value.failed();
+    const std::uint32_t type = value.u32();
+    value.take(12);  // linearity, reserved, sampling
+    if (value.failed() || type > 2) return false;
+    channel.bytes = type == 1 ? 2 : 4;  // unsigned, half, float
+    header.channels.push_back(std::move(channel));
+  }
+}
+
+bool readAttribute(const std::string& attribute, Cursor value, ExrHeader& header) {
+  if (attribute == "channels") return readChannels(value, header);
+  if (attribute == "compression") header.compression = byteAt(value.take(1), 0);
+  if (attribute == "dataWindow") {
+    const std::int64_t left = value.i32(), top = value.i32();
+    const std::int64_t right = value.i32(), bottom = value.i32();
+    header.width = right - left + 1;
+    header.height = bottom - top + 1;
+  }
+  return !value.failed();
+}
+
+}  // namespace
+
+Result<ExrHeader> readExrHeader(ByteView bytes, const std::string& name) {
+  Cursor cursor(bytes);
+  if (!startsWith(bytes, "\x76\x2f\x31\x01"))
+    return corrupt(name, "EXR", "it does not begin with the OpenEXR signature");
+  cursor.take(4);
+  const std::uint32_t flags = cursor.u32();
+  if (flags & kUnsupportedFlags)
+    return error(ErrorKind::Input, "{}: deep EXR pictures are not read; flatten it first", name);
+  ExrHeader header;
+  header.tiled = (flags & kTiledFlag) != 0;
+  for (;;) {
+    const std::string attribute = cursor.text();
+    if (attribute.empty()) break;
+    cursor.text();  // its type
+    const ByteView value = cursor.take(cursor.u32());
+    if (cursor.failed() || !readAttribute(attribute, Cursor(value), header))
+      return corrupt(name, "EXR", "attribute '" + attribute + "' of the header is damaged");
+  }
+  if (cursor.failed()) return corrupt(name, "EXR", "the header ends too early");
+  if (header.width < 1 || header.height < 1 || header.channels.empty())
+    return corrupt(name, "EXR", "the header has no data window or no channels");
+  return header;
+}
+
+}  // namespace lucerna::codec
