@@ -128,7 +128,7 @@ void applySparse(Document& document, Accessor& accessor, const Place& sparse) {
 Accessor readAccessor(Document& document, const Place& place) {
   Accessor accessor{place};
   accessor.type = readComponentType(place);
-  const std::string name = place.at("type").text();
+  const std::string& name = place.at("type").text();
   const auto shape =
       std::find_if(kShapes.begin(), kShapes.end(), [&](const Shape& s) { return name == s.name; });
   if (shape == kShapes.end()) place.at("type").refuse("SCALAR, VEC2 to VEC4 or MAT2 to MAT4");

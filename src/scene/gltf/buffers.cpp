@@ -99,7 +99,7 @@ std::span<const std::byte> readBuffer(Document& document, const Place& buffer, s
     }
     return document.binary.subspan(0, length);
   }
-  const std::string text = uri->text();
+  const std::string& text = uri->text();
   auto inlined = decodeDataUri(text, *uri);
   document.resources.push_back(inlined ? std::move(*inlined)
                                        : readPrefix(resolveUri(document, *uri), length, buffer));
@@ -124,7 +124,7 @@ std::optional<Bytes> decodeDataUri(const std::string& uri, const Place& place) {
 }
 
 std::filesystem::path resolveUri(const Document& document, const Place& uri) {
-  const std::string text = uri.text();
+  const std::string& text = uri.text();
   if (text.empty()) uri.refuse("a relative file name");
   if (text.find("://") != std::string::npos) {
     fail(uri.pointer(), "\"" + text + "\"", "a relative file name",

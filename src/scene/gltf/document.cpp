@@ -9,6 +9,7 @@ namespace lucerna::scene::gltf {
 namespace {
 
 constexpr int kMaxDepth = 64;                       // of nested arrays and objects
+constexpr std::size_t kMaxTokens = 10'000'000;      // brackets, commas and colons of the JSON
 constexpr std::uint64_t kMaxText = 512ull << 20;    // bytes of JSON
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
@@ -33,13 +34,13 @@ std::string at(std::size_t byte) {
 std::string_view splitBinary(Document& document) {
   const std::span<const std::byte> file = document.file;
   const std::string again = "export the file again";
+  if (file.size() >= 4 && read32(file, 0) != 0x46546C67) {
+    fail(at(0), fmt::format("{:#010x}", read32(file, 0)), "the GLB magic \"glTF\" (0x46546c67)",
+         "rename a JSON file to .gltf, or " + again);
+  }
   if (file.size() < 20) {
     fail(at(0), fmt::format("a file of {} bytes", file.size()),
          "a GLB header and chunk of at least 20", "check that the file was copied completely");
-  }
-  if (read32(file, 0) != 0x46546C67) {
-    fail(at(0), fmt::format("{:#010x}", read32(file, 0)), "the GLB magic \"glTF\" (0x46546c67)",
-         "rename a JSON file to .gltf, or " + again);
   }
   if (read32(file, 4) != 2) {
     fail(at(4), fmt::format("version {}", read32(file, 4)), "version 2", again + " as glTF 2.0");
@@ -88,9 +89,11 @@ std::string_view splitBinary(Document& document) {
   return text;
 }
 
-// JSON nests far less than this in practice; a parser or a destructor may not bear more.
-void checkDepth(std::string_view text) {
+// JSON nests far less than this in practice, and a parser may not bear more. Each value takes up to
+// about a hundred bytes once parsed, however short its text.
+void checkSize(std::string_view text) {
   int depth = 0;
+  std::size_t tokens = 0;
   bool inString = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
@@ -109,6 +112,11 @@ void checkDepth(std::string_view text) {
     } else if (c == '}' || c == ']') {
       --depth;
     }
+    tokens += !inString && (c == '{' || c == '[' || c == ',' || c == ':');
+  }
+  if (tokens > kMaxTokens) {
+    fail("JSON", fmt::format("{} values", tokens), fmt::format("at most {}", kMaxTokens),
+         "split the scene into several files");
   }
 }
 
@@ -118,7 +126,7 @@ void parse(Document& document, std::string_view text) {
     document.warn("the byte-order mark before the JSON is ignored");
   }
   if (text.empty()) fail("/", "no JSON at all", "a JSON object", "export the file again");
-  checkDepth(text);
+  checkSize(text);
   try {
     document.json = Json::parse(text);
   } catch (const Json::exception& exception) {
@@ -135,7 +143,7 @@ void checkExtensions(Document& document) {
   };
   std::set<std::string> required;
   for (const Place& place : document.root().elements("extensionsRequired")) {
-    const std::string name = place.text();
+    const std::string& name = place.text();
     required.insert(name);
     if (!read(name)) {
       fail(place.pointer(), "\"" + name + "\"", "an extension that Lucerna reads",
@@ -143,7 +151,7 @@ void checkExtensions(Document& document) {
     }
   }
   for (const Place& place : document.root().elements("extensionsUsed")) {
-    const std::string name = place.text();
+    const std::string& name = place.text();
     if (!read(name)) document.warn("the extension " + name + " is not read: drawn without it");
   }
 }
@@ -177,6 +185,7 @@ void openDocument(Document& document, const std::filesystem::path& path, Bytes f
          "keep buffers and images in files of their own");
   }
   parse(document, text);
+  if (!binary) document.file = {};
 
   const Place version = document.root().at("asset").at("version");
   if (!version.text().starts_with("2.")) {

@@ -77,7 +77,7 @@ void readAnimations(Context& context) {
     const auto samplers = place.at("samplers").elements();
     for (const Place& channelPlace : place.at("channels").elements()) {
       const Place target = channelPlace.at("target");
-      const std::string pathName = target.at("path").text();
+      const std::string& pathName = target.at("path").text();
       const auto path = pathNamed(pathName);
       if (!path) {
         context.document.warn(fmt::format("animation {} moves \"{}\", which is not animated",

@@ -13,7 +13,7 @@ namespace {
 
 enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };
 
-std::vector<std::uint32_t> triangleList(const std::vector<std::uint32_t>& in, int mode) {
+std::vector<std::uint32_t> triangleList(std::vector<std::uint32_t> in, int mode) {
   if (mode == kTriangles) return in;
   std::vector<std::uint32_t> out;
   out.reserve(in.size() * 3);
@@ -108,7 +108,8 @@ bool PrimitiveReader::readTriangles(int mode) {
           fmt::format("indices below {}, the count of POSITION", vertexCount_));
     }
   }
-  mesh_.indices = triangleList(indices, mode);
+  if (mode != kTriangles) context_.document.spend(indices.size() * 12, primitive_);
+  mesh_.indices = triangleList(std::move(indices), mode);
   if (const auto rest = mesh_.indices.size() % 3; rest != 0) {
     warn(fmt::format("has {} indices, not a multiple of 3: the last {} are ignored",
                      mesh_.indices.size(), rest));
@@ -258,6 +259,7 @@ std::optional<Mesh> PrimitiveReader::read() {
   mesh_.name = name_;
   keepUsedVertices();
   readPositions();
+  if (mesh_.indices.empty()) return std::nullopt;
   readNormals();
   readTangents();
   readTexCoords();

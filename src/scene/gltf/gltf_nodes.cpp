@@ -1,5 +1,7 @@
 // The node hierarchy and what hangs on it: objects, cameras, lights, instances.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "scene/gltf/convert.hpp"
 
@@ -28,6 +30,12 @@ void setMatrix(Node& node, const mat4& m) {
     }
   }
   node.matrix = m;
+}
+
+void requireDepth(const Place& lens, const Camera& camera) {
+  if (camera.far <= camera.near) {
+    lens.at("zfar").refuse(fmt::format("a number above znear, which is {}", camera.near));
+  }
 }
 
 class NodeReader {
@@ -206,7 +214,7 @@ void NodeReader::addCamera(const Place& place, std::uint32_t node) {
   Camera camera;
   camera.name = place.text("name", context_.scene.nodes[node].name);
   camera.node = node;
-  const std::string type = place.at("type").text();
+  const std::string& type = place.at("type").text();
   if (type == "perspective") {
     const Place lens = place.at("perspective");
     camera.fovY = lens.at("yfov").number(1e-4f, 3.14f);
@@ -214,6 +222,7 @@ void NodeReader::addCamera(const Place& place, std::uint32_t node) {
     camera.near = lens.at("znear").number(1e-9f, kHuge);
     camera.far = std::numeric_limits<float>::infinity();
     if (lens.has("zfar")) camera.far = lens.at("zfar").number(camera.near, kHuge);
+    requireDepth(lens, camera);
   } else if (type == "orthographic") {
     const Place lens = place.at("orthographic");
     const float halfWidth = lens.at("xmag").number(-kHuge, kHuge);
@@ -224,6 +233,7 @@ void NodeReader::addCamera(const Place& place, std::uint32_t node) {
     camera.aspect = std::abs(halfWidth / halfHeight);
     camera.near = lens.at("znear").number(0.f, kHuge);
     camera.far = lens.at("zfar").number(camera.near, kHuge);
+    requireDepth(lens, camera);
   } else {
     place.at("type").refuse("\"perspective\" or \"orthographic\"");
   }
@@ -237,7 +247,7 @@ void NodeReader::addLight(const Place& place, std::uint32_t node) {
   light.color = place.vector3("color", vec3(1.f));
   light.intensity = place.number("intensity", 1.f, 0.f, kHuge);
   light.range = place.number("range", 0.f, 0.f, kHuge);
-  const std::string type = place.at("type").text();
+  const std::string& type = place.at("type").text();
   if (type == "directional") {
     light.kind = LightKind::Directional;
   } else if (type == "point") {
@@ -247,7 +257,7 @@ void NodeReader::addLight(const Place& place, std::uint32_t node) {
     const Place cone = place.at("spot");
     constexpr float kHalfPi = glm::half_pi<float>();
     light.outerCone = cone.number("outerConeAngle", glm::quarter_pi<float>(), 0.f, kHalfPi);
-    light.innerCone = cone.number("innerConeAngle", 0.f, 0.f, light.outerCone);
+    light.innerCone = std::min(cone.number("innerConeAngle", 0.f, 0.f, kHalfPi), light.outerCone);
   } else {
     place.at("type").refuse("\"directional\", \"point\" or \"spot\"");
   }

@@ -104,9 +104,9 @@ std::vector<Place> Place::elements(const char* key) const {
   return array ? array->elements() : std::vector<Place>();
 }
 
-std::string Place::text() const {
+const std::string& Place::text() const {
   if (!value_->is_string()) refuse("a string");
-  return value_->get<std::string>();
+  return value_->get_ref<const std::string&>();
 }
 
 bool Place::boolean() const {

@@ -50,7 +50,7 @@ class Place {
   std::vector<Place> elements(const char* key) const;
 
   // Values.
-  std::string text() const;
+  const std::string& text() const;
   bool boolean() const;
   float number() const;  // finite as a float
   float number(float min, float max) const;
