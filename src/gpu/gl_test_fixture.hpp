@@ -13,6 +13,7 @@ namespace lucerna::gpu {
 class GlTest : public testing::Test {
  protected:
   void SetUp() override {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");  // drivers have threads, fork() alone is unsafe
     auto context = Context::create();
     ASSERT_TRUE(context) << context.error().message;
     context_ = std::move(*context);

@@ -226,7 +226,7 @@ void Program::set(std::string_view name, int value) const {
   checkType(*uniform, name, {GL_INT, GL_BOOL});
   glProgramUniform1i(id_, uniform->location, value);
 }
-void Program::set(std::string_view name, bool value) const {
+void Program::setBool(std::string_view name, bool value) const {
   const Uniform* uniform = find(name);
   if (!uniform) return;
   checkType(*uniform, name, {GL_BOOL, GL_INT});

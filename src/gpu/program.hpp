@@ -1,6 +1,7 @@
 // Shader programs: made from paths and defines by Device::program(), cached by both.
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -41,7 +42,8 @@ class Program {
 
   void set(std::string_view name, float value) const;
   void set(std::string_view name, int value) const;
-  void set(std::string_view name, bool value) const;
+  // Only bool itself: arrays would otherwise decay to it.
+  void set(std::string_view name, std::same_as<bool> auto value) const { setBool(name, value); }
   void set(std::string_view name, std::uint32_t value) const;
   void set(std::string_view name, vec2 value) const;
   void set(std::string_view name, vec3 value) const;
@@ -54,6 +56,7 @@ class Program {
   void set(std::string_view name, std::span<const vec4> values) const;
 
  private:
+  void setBool(std::string_view name, bool value) const;
   friend class Device;  // its Impl included
   friend struct Reflector;
   Program();

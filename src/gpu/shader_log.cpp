@@ -9,7 +9,7 @@
 namespace lucerna::gpu {
 namespace {
 
-// How a driver writes a place. Capture groups: file index, line, rest.
+// How a driver writes a place. Capture groups: line of the expanded text, rest.
 struct LogForm {
   std::regex pattern;
   const char* severity;  // put before the rest where the form has it in front of the place
@@ -17,10 +17,10 @@ struct LogForm {
 
 const std::array<LogForm, 4>& logForms() {
   static const std::array<LogForm, 4> forms = {
-      LogForm{std::regex(R"(^(\d+):(\d+)\(\d+\)\s*:\s*(.*)$)"), ""},           // Mesa
-      LogForm{std::regex(R"(^(\d+)\((\d+)\)\s*:\s*(.*)$)"), ""},               // NVIDIA
-      LogForm{std::regex(R"(^ERROR:\s*(\d+):(\d+):\s*(.*)$)"), "error: "},     // AMD
-      LogForm{std::regex(R"(^WARNING:\s*(\d+):(\d+):\s*(.*)$)"), "warning: "}  // AMD
+      LogForm{std::regex(R"(^\d+:(\d+)\(\d+\)\s*:\s*(.*)$)"), ""},           // Mesa
+      LogForm{std::regex(R"(^\d+\((\d+)\)\s*:\s*(.*)$)"), ""},               // NVIDIA
+      LogForm{std::regex(R"(^ERROR:\s*\d+:(\d+):\s*(.*)$)"), "error: "},     // AMD
+      LogForm{std::regex(R"(^WARNING:\s*\d+:(\d+):\s*(.*)$)"), "warning: "}  // AMD
   };
   return forms;
 }
@@ -30,11 +30,13 @@ std::string mapLine(const std::string& line, const ExpandedShader& shader) {
     std::smatch match;
     if (!std::regex_match(line, match, form.pattern)) continue;
     const std::string digits = match[1].str();
-    std::size_t file = 0;
-    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), file);
-    if (parsed.ec != std::errc() || file >= shader.files.size()) return line;
-    return fmt::format("{}:{}: {}{}", shader.files[file], match[2].str(), form.severity,
-                       match[3].str());
+    std::size_t number = 0;
+    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (parsed.ec != std::errc() || number < 1 || number > shader.lines.size()) return line;
+    const ExpandedShader::Place place = shader.lines[number - 1];
+    if (place.file < 0) return fmt::format("(defines): {}{}", form.severity, match[2].str());
+    return fmt::format("{}:{}: {}{}", shader.files[static_cast<std::size_t>(place.file)],
+                       place.line, form.severity, match[2].str());
   }
   return line;
 }

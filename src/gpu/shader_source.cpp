@@ -65,9 +65,8 @@ Status ShaderSources::append(const std::string& path, const std::string& include
                              ExpandedShader& result) const {
   if (std::find(result.files.begin(), result.files.end(), path) != result.files.end()) return {};
   LUCERNA_TRY(text, read(path, includedFrom));
-  const std::size_t file = result.files.size();
+  const int file = static_cast<int>(result.files.size());
   result.files.push_back(path);
-  result.text += fmt::format("#line 1 {}\n", file);
   int number = 0;
   for (const std::string& line : split(text, '\n')) {
     const std::string place = fmt::format("{}:{}", path, ++number);
@@ -79,6 +78,7 @@ Status ShaderSources::append(const std::string& path, const std::string& include
     const auto argument = directive(line, "include");
     if (!argument) {
       result.text += line + "\n";
+      result.lines.push_back({file, number});
       continue;
     }
     const std::size_t close = argument->starts_with('"') ? argument->find('"', 1) : 0;
@@ -87,7 +87,6 @@ Status ShaderSources::append(const std::string& path, const std::string& include
                    "{}: error: found '{}', expected #include \"path relative to src/\"", place,
                    line);
     LUCERNA_TRY_VOID(append(std::string(argument->substr(1, close - 1)), place, result));
-    result.text += fmt::format("#line {} {}\n", number + 1, file);
   }
   return {};
 }
@@ -96,8 +95,11 @@ Result<ExpandedShader> ShaderSources::expand(
     const std::string& path, const std::map<std::string, std::string>& defines) const {
   ExpandedShader result;
   result.text = "#version 450 core\n";
-  for (const auto& [name, value] : defines)
+  result.lines.resize(1 + defines.size());
+  for (const auto& [name, value] : defines) {
+    CHECK(value.find('\n') == std::string::npos, "define {} has several lines", name);
     result.text += fmt::format("#define {} {}\n", name, value);
+  }
   LUCERNA_TRY_VOID(append(path, "", result));
   return result;
 }

@@ -19,10 +19,16 @@ struct EmbeddedShader {
   std::string_view text;
 };
 
-// A source after include expansion, with the way back from its lines to files.
+// A source after include expansion, with the way back from its lines to files. No #line directives:
+// Mesa reports file 0 for most errors whatever they say.
 struct ExpandedShader {
+  struct Place {
+    int file = -1;  // index into files; -1: #version or a define
+    int line = 0;   // from 1
+  };
   std::string text;
-  std::vector<std::string> files;  // index: the source-string number of #line directives
+  std::vector<std::string> files;
+  std::vector<Place> lines;  // of each line of text
 };
 
 class ShaderSources {
@@ -51,7 +57,7 @@ class ShaderSources {
 };
 
 // Turns a driver's log into "file:line: error: ..." lines. Reads the forms of Mesa
-// ("1:12(3): error: ..."), NVIDIA ("1(12) : error C0000: ...") and AMD ("ERROR: 1:12: ...");
+// ("0:12(3): error: ..."), NVIDIA ("0(12) : error C0000: ...") and AMD ("ERROR: 0:12: ...");
 // other lines stay as they are.
 std::string mapShaderLog(const std::string& log, const ExpandedShader& shader);
 

@@ -39,9 +39,15 @@ TEST(ShaderSources, ExpandsEachFileOnceAndMapsLines) {
   ASSERT_TRUE(shader) << shader.error().message;
   EXPECT_THAT(shader->files, ElementsAre("a/main.frag", "a/one.glsl", "a/two.glsl"));
   EXPECT_EQ(shader->text,
-            "#version 450 core\n#define SHADOWS \n#define TAPS 4\n#line 1 0\n// first\n"
-            "#line 1 1\n#line 1 2\n#line 2 2\nint two;\n#line 2 1\nint one;\n\n#line 3 0\n"
-            "#line 4 0\nvoid main() {}\n\n");
+            "#version 450 core\n#define SHADOWS \n#define TAPS 4\n// first\nint two;\n"
+            "int one;\n\nvoid main() {}\n\n");
+  // Errors in each line of the text, as Mesa words them, land where the line came from.
+  std::string log;
+  for (std::size_t i = 1; i <= shader->lines.size(); ++i) log += fmt::format("0:{}(1): e\n", i);
+  EXPECT_EQ(mapShaderLog(log, *shader),
+            "(defines): e\n(defines): e\n(defines): e\na/main.frag:1: e\n"
+            "a/two.glsl:2: e\na/one.glsl:2: e\na/one.glsl:3: e\na/main.frag:4: e\n"
+            "a/main.frag:5: e");
 }
 
 TEST(ShaderSources, FaultsNameFileAndLine) {
@@ -113,15 +119,15 @@ TEST_F(ShaderRoot, ReportsChangesOnce) {
 }
 
 TEST(ShaderLog, ThreeDriversFormsAreMapped) {
-  const ExpandedShader shader{"", {"a/main.frag", "a/one.glsl"}};
-  EXPECT_EQ(mapShaderLog("1:12(3): error: `x' undeclared\n", shader),
+  const ExpandedShader shader{"", {"a/main.frag", "a/one.glsl"}, {{-1, 0}, {0, 7}, {1, 12}}};
+  EXPECT_EQ(mapShaderLog("0:3(8): error: `x' undeclared\n", shader),
             "a/one.glsl:12: error: `x' undeclared");
-  EXPECT_EQ(mapShaderLog("0(7) : error C1503: undefined variable \"x\"", shader),
+  EXPECT_EQ(mapShaderLog("0(2) : error C1503: undefined variable \"x\"", shader),
             "a/main.frag:7: error C1503: undefined variable \"x\"");
-  EXPECT_EQ(mapShaderLog("ERROR: 1:4: 'x' : undeclared identifier\r\nWARNING: 0:1: odd", shader),
-            "a/one.glsl:4: error: 'x' : undeclared identifier\na/main.frag:1: warning: odd");
-  EXPECT_EQ(mapShaderLog("9:12(3): error: of no file\nsomething else", shader),
-            "9:12(3): error: of no file\nsomething else");
+  EXPECT_EQ(mapShaderLog("ERROR: 0:3: 'x' : undeclared identifier\r\nWARNING: 0:2: odd", shader),
+            "a/one.glsl:12: error: 'x' : undeclared identifier\na/main.frag:7: warning: odd");
+  EXPECT_EQ(mapShaderLog("0:4(3): error: of no line\nsomething else", shader),
+            "0:4(3): error: of no line\nsomething else");
   EXPECT_EQ(mapShaderLog("", shader), "");
 }
 

@@ -142,7 +142,8 @@ void Device::Impl::bindForProgram() {
   const auto bindBlocks = [&](const std::vector<Program::Reflection::Slot>& slots, GLenum target) {
     for (const auto& slot : slots) {
       const auto& source = bound(scope.buffers, slot.name, "block", program.desc_);
-      CHECK(source.bytes >= static_cast<std::size_t>(slot.bytes),
+      // Drivers round the size of a block up to 16 bytes.
+      CHECK((source.bytes + 15) / 16 * 16 >= static_cast<std::size_t>(slot.bytes),
             "block '{}' reads {} bytes, its buffer has {}", slot.name, slot.bytes, source.bytes);
       glBindBufferBase(target, slot.unit, source.buffer);
     }
