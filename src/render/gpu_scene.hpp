@@ -36,10 +36,13 @@ struct GpuScene {
   gpu::Buffer vertices, indices, objectIndices;
   gpu::VertexInput input;
   gpu::Buffer objects, materials;             // ObjectBlock, MaterialBlock
-  std::vector<gpu::Texture> textures;         // as Scene::textures, each uploaded as sRGB or linear as used
+  std::vector<gpu::Texture> textures;         // as Scene::textures, each sRGB or linear as used; empty if
+                                              // no material uses it
   std::vector<gpu::Texture> linearTextures;   // those that are used as data and as colour: the data copy
   std::vector<gpu::Sampler> samplers;         // as Scene::textures
-  gpu::Texture white, flatNormal;             // for unused slots
+  gpu::Texture white;                         // for unused slots
+  gpu::Texture backgroundCube;                // if the background is a cube map; z points the other
+                                              // way: look it up at (x, y, -z)
   std::vector<bool> mirrored;                 // per object: its matrix flips orientation
 };
 

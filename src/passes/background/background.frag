@@ -1,0 +1,28 @@
+// The background behind one pixel. One of:
+//   COLOR     one radiance everywhere
+//   IMAGE     a picture stretched over the output
+//   CUBE_MAP  six pictures around the eye
+#include "render/view.glsl"
+
+uniform vec3 radiance;   // of the colour; a factor on picture and cube map
+#ifdef IMAGE
+uniform sampler2D image;
+#endif
+#ifdef CUBE_MAP
+uniform samplerCube cubeMap;
+#endif
+
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 color;
+
+void main() {
+  color = vec4(radiance, 1.0);
+#ifdef IMAGE
+  // Pictures start at the top, targets at the bottom.
+  color.rgb *= texture(image, vec2(uv.x, 1.0 - uv.y)).rgb;
+#endif
+#ifdef CUBE_MAP
+  // GL's cube maps are left-handed (render::GpuScene::backgroundCube).
+  color.rgb *= texture(cubeMap, lookDirectionW(ndcOfPixel(gl_FragCoord.xy)) * vec3(1, 1, -1)).rgb;
+#endif
+}

@@ -1,0 +1,33 @@
+// Forward: draws and shades in one go; the baseline that deferred shading is compared with.
+#pragma once
+
+#include "graph/pass_info.hpp"
+#include "render/draw_list.hpp"
+#include "render/light_list.hpp"
+#include "render/view_data.hpp"
+
+namespace lucerna::passes {
+
+class Forward {
+ public:
+  struct Params {
+    float ambient = 1.f;
+    bool backFaces = false;
+  };
+  struct Ports {
+    graph::In<render::GpuScene> scene;
+    graph::In<render::ViewData> view;
+    graph::In<render::LightList> lights;
+    graph::In<render::DrawLists> drawLists;
+    graph::Out<gpu::Texture> depth, color;
+  };
+
+  static void describe(graph::PassInfo<Params, Ports>& d);
+  explicit Forward(gpu::Device& device);
+  void execute(graph::PassContext& context, const Params& params, const Ports& ports);
+
+ private:
+  gpu::ProgramPtr opaque_, alphaTested_;
+};
+
+}  // namespace lucerna::passes

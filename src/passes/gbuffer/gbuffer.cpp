@@ -1,0 +1,74 @@
+#include "passes/gbuffer/gbuffer.hpp"
+
+namespace lucerna::passes {
+
+using gpu::Format;
+
+void GBuffer::describe(graph::PassInfo<Params, Ports>& d) {
+  d.pass("GBuffer",
+         "Draws geometry and materials of opaque and alpha-tested objects into targets.");
+  d.needs(gpu::kFeatureMultiDrawIndirect);
+  d.param("backFaces", &Params::backFaces)
+      .help("Draw the back faces of single-sided materials, too.");
+  d.read("scene", &Ports::scene).help("Geometry and materials.");
+  d.read("view", &Ports::view).help("The view to draw from.");
+  d.read("drawLists", &Ports::drawLists).help("What to draw: its opaque and alpha-tested lists.");
+  d.write("depth", &Ports::depth)
+      .texture(Format::Depth32F)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.f))
+      .help("Reversed depth: 1 at the near plane, 0 where nothing was drawn.");
+  d.write("normal", &Ports::normal)
+      .texture(Format::Rg16Unorm)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.5f))
+      .help("View-space shading normal, octahedral.");
+  d.write("albedo", &Ports::albedo)
+      .texture(Format::Srgb8Alpha8)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
+      .help("Diffuse reflectance, or base colour of metallic-roughness.");
+  d.write("specular", &Ports::specular)
+      .texture(Format::Srgb8Alpha8)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
+      .help("rgb: Phong specular reflectance; a: occlusion of ambient light.");
+  d.write("material", &Ports::material)
+      .texture(Format::Rgba8Uint)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.f))
+      .help(
+          "r: type (0 nothing, 1 Phong, 2 metallic-roughness, 3 custom shader); g: shininess or "
+          "roughness * 255; b: metallic * 255.");
+  d.write("emissive", &Ports::emissive)
+      .texture(Format::R11G11B10Float)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.f))
+      .help("Radiance that the surface sends out by itself.");
+}
+
+GBuffer::GBuffer(gpu::Device& device)
+    : opaque_(device.program(
+          {.vertex = "render/object.vert", .fragment = "passes/gbuffer/gbuffer.frag"})),
+      alphaTested_(device.program({.vertex = "render/object.vert",
+                                   .fragment = "passes/gbuffer/gbuffer.frag",
+                                   .defines = {{"ALPHA_TEST", "1"}}})) {}
+
+void GBuffer::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
+  gpu::Rendering rendering = context.device.render({
+      .colors = {{ports.normal.get(), gpu::Load::Clear, vec4(0.5f)},
+                 {ports.albedo.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)},
+                 {ports.specular.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)},
+                 {ports.material.get(), gpu::Load::Clear, vec4(0.f)},
+                 {ports.emissive.get(), gpu::Load::Clear, vec4(0.f)}},
+      .depth = {ports.depth.get(), gpu::Load::Clear},
+  });
+  const gpu::RenderState state{.depthTest = true,
+                               .depthWrite = true,
+                               .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
+  const gpu::Buffer& view = ports.view->block;
+  drawList(rendering, *ports.scene, ports.drawLists->opaque, *opaque_, state, view);
+  drawList(rendering, *ports.scene, ports.drawLists->alphaTested, *alphaTested_, state, view);
+}
+
+}  // namespace lucerna::passes

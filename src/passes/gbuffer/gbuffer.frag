@@ -1,0 +1,24 @@
+// Stores a surface in the G-buffer instead of shading it.
+//   ALPHA_TEST  discard below the material's cutoff
+#include "render/gbuffer.glsl"
+#include "render/surface.glsl"
+
+layout(location = 0) out vec2 normal;
+layout(location = 1) out vec4 albedo;
+layout(location = 2) out vec4 specular;
+layout(location = 3) out uvec4 materialTexel;
+layout(location = 4) out vec3 emissive;
+
+void main() {
+  MaterialValues material = materials[materialIndex];
+  vec4 baseColor = baseColorOf(material);
+#ifdef ALPHA_TEST
+  if (baseColor.a < material.transmission.w) discard;
+#endif
+  Surface s = surfaceOf(material, baseColor);
+  normal = encodeNormal(normalize(mat3(view.viewFromWorld) * s.normalW));
+  albedo = vec4(s.albedo, 1.0);
+  specular = vec4(s.specular, s.occlusion);
+  materialTexel = packMaterial(s);
+  emissive = s.emissive;
+}

@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/testing.hpp"
+
+namespace lucerna {
+namespace {
+
+using glm::dmat4;
+using glm::dvec4;
+
+const std::vector<std::string> kRows = {"Cull", "GBuffer", "ShowGBuffer"};
+
+TEST(GBuffer, StoresTypeAndShininessOfEachMaterialExactly) {
+  scene::Scene scene = testing::emptyScene();
+  for (const int shininess : {0, 1, 32, 127, 128, 254, 255}) {
+    scene.objects.clear();
+    scene.materials.clear();
+    scene::Material& material = testing::addWall(scene, 3.f);
+    material.model = scene::MaterialModel::Phong;
+    material.shininess = static_cast<float>(shininess);
+    const Image texels = testing::valueOf(scene, testing::rows(kRows), {8, 8}, "GBuffer.material");
+    const std::uint8_t* texel = texels.pixel<std::uint8_t>(4, 4);
+    EXPECT_EQ(texel[0], 1);
+    EXPECT_EQ(texel[1], shininess);
+  }
+  testing::expectNoDebugMessages();
+}
+
+TEST(GBuffer, TellsMaterialModelsAndNothingApart) {
+  const Image texels =
+      testing::valueOf(testing::sampleScene(), testing::rows(kRows), {160, 90}, "GBuffer.material");
+  std::set<int> types;
+  for (std::size_t i = 0; i < texels.as<std::uint8_t>().size(); i += 4)
+    types.insert(texels.as<std::uint8_t>()[i]);
+  EXPECT_EQ(types, (std::set<int>{0, 1, 2}));
+}
+
+// Depth as drawn, against rays through the pixels' centres: half a pixel or a wrong window shows.
+TEST(GBuffer, DepthIsThatOfTheSurfaceAtThePixelsCentreAlsoOffAxis) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, 4.f);
+  scene.nodes[scene.objects[0].node].rotation =
+      glm::angleAxis(0.5f, glm::normalize(vec3(0.3f, 1.f, 0.f)));
+  updateTransforms(scene);
+  const dmat4 objectFromWorld =
+      glm::inverse(dmat4(scene.nodes[scene.objects[0].node].worldFromNode));
+
+  constexpr int kWidth = 37, kHeight = 23;
+  for (const mat4& clipFromView : {perspectiveReversed(0.6f, 37.f / 23.f, 0.1f, 100.f),
+                                   frustumReversed(-0.03f, 0.01f, -0.01f, 0.02f, 0.1f, 100.f)}) {
+    scene::View view;
+    view.clipFromView = clipFromView;
+    testing::SceneRenderer renderer(scene);
+    auto output = renderer.render(testing::rows(kRows), view, {kWidth, kHeight}, {"GBuffer.depth"});
+    ASSERT_TRUE(output) << output.error().message;
+    const Image& depths = output->kept.at("GBuffer.depth");
+    const dmat4 worldFromClip = glm::inverse(dmat4(clipFromView));
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double ndcX = (x + 0.5) / kWidth * 2. - 1.;
+        const double ndcY = 1. - (y + 0.5) / kHeight * 2.;
+        dvec4 nearPoint = worldFromClip * dvec4(ndcX, ndcY, 1., 1.);
+        nearPoint /= nearPoint.w;
+        // The eye is the origin: points t * nearPoint; the front side is at z = 0.5 of the cube.
+        const dvec4 a = objectFromWorld * dvec4(0, 0, 0, 1);
+        const dvec4 b = objectFromWorld * nearPoint;
+        const double t = (0.5 - a.z) / (b.z - a.z);
+        const double expected = t * -nearPoint.z;
+        const float depth = *depths.pixel<float>(x, y);
+        const dvec4 p = worldFromClip * dvec4(ndcX, ndcY, depth, 1.);
+        const double distance = -p.z / p.w;
+        ASSERT_NEAR(distance / expected, 1., 1e-4) << "pixel " << x << ", " << y;
+      }
+  }
+  testing::expectNoDebugMessages();
+}
+
+int drawnPixels(const scene::Scene& scene, const graph::Pipeline& pipeline) {
+  const Image depths = testing::valueOf(scene, pipeline, {32, 32}, "GBuffer.depth");
+  return static_cast<int>(std::ranges::count_if(depths.as<float>(), [](float d) { return d > 0; }));
+}
+
+// A square that shows its back to the camera.
+scene::Scene turnedSquare() {
+  scene::Scene scene = testing::emptyScene();
+  scene::Mesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.normals.assign(4, vec3(0, 0, -1));
+  mesh.indices = {0, 2, 1, 0, 3, 2};
+  mesh.bounds = {vec3(-1, -1, 0), vec3(1, 1, 0)};
+  scene.meshes.push_back(mesh);
+  scene.materials.emplace_back();
+  testing::addObject(scene, 1, 0, glm::translate(mat4(1.f), vec3(0, 0, -3)));
+  updateTransforms(scene);
+  return scene;
+}
+
+TEST(GBuffer, DrawsBackFacesOnlyWhereAsked) {
+  scene::Scene scene = turnedSquare();
+  graph::Pipeline pipeline = testing::rows(kRows);
+  EXPECT_EQ(drawnPixels(scene, pipeline), 0);
+  pipeline.passes[1].params["backFaces"] = true;
+  const int all = drawnPixels(scene, pipeline);
+  EXPECT_GT(all, 100);
+  pipeline.passes[1].params.clear();
+  scene.materials[0].doubleSided = true;
+  EXPECT_EQ(drawnPixels(scene, pipeline), all);
+}
+
+TEST(GBuffer, MirroredObjectsShowTheirFrontFaces) {
+  scene::Scene scene = turnedSquare();
+  scene.nodes[scene.objects[0].node].scale = vec3(1, 1, -1);  // now it faces the camera
+  updateTransforms(scene);
+  EXPECT_GT(drawnPixels(scene, testing::rows(kRows)), 100);
+}
+
+TEST(GBuffer, NormalsFaceTheEyeEverywhere) {
+  scene::Scene scene = turnedSquare();
+  scene.materials[0].doubleSided = true;
+  testing::SceneRenderer renderer(scene);
+  graph::Pipeline pipeline = testing::rows(kRows);
+  auto output = renderer.render(pipeline, {8, 8});
+  ASSERT_TRUE(output) << output.error().message;
+  // View-space normal (0, 0, 1) shows as (0.5, 0.5, 1).
+  const std::uint8_t* pixel = output->picture.pixel<std::uint8_t>(4, 4);
+  EXPECT_NEAR(pixel[0], 128, 1);
+  EXPECT_NEAR(pixel[1], 128, 1);
+  EXPECT_EQ(pixel[2], 255);
+}
+
+TEST(GBuffer, AlphaTestCutsHoles) {
+  scene::Scene scene = testing::sampleScene();
+  std::erase_if(scene.objects, [](const scene::Object& object) { return object.material != 3; });
+  const graph::Pipeline pipeline = testing::rows(kRows);
+  const int withHoles = drawnPixels(scene, pipeline);
+  scene.materials[3].alphaMode = scene::AlphaMode::Opaque;
+  const int solid = drawnPixels(scene, pipeline);
+  EXPECT_GT(withHoles, solid / 4);
+  EXPECT_LT(withHoles, solid * 3 / 4);
+}
+
+}  // namespace
+}  // namespace lucerna

@@ -1,0 +1,56 @@
+#include "passes/lighting/lighting.hpp"
+
+namespace lucerna::passes {
+
+using gpu::Format;
+
+void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
+  d.pass("Lighting", "Shades the G-buffer with the ambient light and all lights.");
+  d.param("ambient", &Params::ambient).range(0, 100).help("Factor on the scene's ambient light.");
+  d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
+  d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("depth", &Ports::depth).texture(Format::Depth32F).help("Reversed depth.");
+  d.read("normal", &Ports::normal)
+      .texture(Format::Rg16Unorm)
+      .help("View-space normal, octahedral.");
+  d.read("albedo", &Ports::albedo).texture(Format::Srgb8Alpha8).help("Diffuse or base colour.");
+  d.read("specular", &Ports::specular)
+      .texture(Format::Srgb8Alpha8)
+      .help("Phong specular and occlusion of ambient light.");
+  d.read("material", &Ports::material)
+      .texture(Format::Rgba8Uint)
+      .help("Type, shininess or roughness, metallic.");
+  d.read("emissive", &Ports::emissive).texture(Format::R11G11B10Float).help("Radiance.");
+  d.write("color", &Ports::color)
+      .texture(Format::Rgba16Float)
+      .sizeOf("depth")
+      .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
+      .help("Linear radiance, emission included; black where nothing was drawn.");
+}
+
+Lighting::Lighting(gpu::Device& device)
+    : program_(device.program(
+          {.vertex = "gpu/fullscreen.vert", .fragment = "passes/lighting/lighting.frag"})) {}
+
+void Lighting::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
+  gpu::Rendering rendering = context.device.render({
+      .colors = {{ports.color.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)}},
+      .depth = {ports.depth.get()},
+  });
+  // The triangle lies at depth 0: it passes where something nearer was drawn, so that empty pixels
+  // cost nothing. Depth is tested and read, never written.
+  rendering.use(*program_,
+                {.depthTest = true, .depthCompare = gpu::Compare::Less, .cull = gpu::Cull::None});
+  program_->set("ambientScale", params.ambient);
+  rendering.buffer("ViewBlock", ports.view->block);
+  rendering.buffer("LightBlock", ports.lights->block);
+  rendering.texture("depth", *ports.depth, gpu::kNearest);
+  rendering.texture("normal", *ports.normal, gpu::kNearest);
+  rendering.texture("albedo", *ports.albedo, gpu::kNearest);
+  rendering.texture("specular", *ports.specular, gpu::kNearest);
+  rendering.texture("material", *ports.material, gpu::kNearest);
+  rendering.texture("emissive", *ports.emissive, gpu::kNearest);
+  rendering.fullscreen();
+}
+
+}  // namespace lucerna::passes

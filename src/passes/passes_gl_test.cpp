@@ -1,0 +1,134 @@
+// What must hold for every pass when it draws: each parameter at its ends, each row disabled, and
+// deferred against forward shading.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "image/metrics.hpp"
+#include "scene/load.hpp"
+#include "support/testing.hpp"
+
+namespace lucerna {
+namespace {
+
+constexpr uvec2 kSize{64, 36};
+
+// Rows that run the pass, and the value it makes.
+struct Stage {
+  std::vector<std::string> rows;
+  std::string value;
+};
+
+Stage stageOf(const std::string& type) {
+  if (type == "Forward") return {testing::kForwardRows, "ToneMap.color"};
+  if (type == "ShowGBuffer")
+    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
+  if (type == "ShowBvh")
+    return {{"Cull", "GBuffer", "Lighting", "ShowBvh", "ToneMap"}, "ToneMap.color"};
+  return {testing::kDeferredRows, "ToneMap.color"};
+}
+
+// Values at the ends of a parameter's range.
+std::vector<graph::Value> extremes(const graph::ParamDescription& param) {
+  using graph::ParamType;
+  std::vector<graph::Value> values;
+  switch (param.type) {
+    case ParamType::Bool:
+      return {false, true};
+    case ParamType::Choice:
+      for (const std::string& choice : param.choices) values.emplace_back(choice);
+      return values;
+    case ParamType::Int:
+      return {static_cast<std::int64_t>(*param.min), static_cast<std::int64_t>(*param.max)};
+    case ParamType::Float:
+      return {*param.min, *param.max};
+    case ParamType::Color:
+    case ParamType::Vector:
+      for (const double value : {param.min.value_or(0), param.max.value_or(1)})
+        values.emplace_back(std::vector<double>(param.size, value));
+      return values;
+    case ParamType::Text:
+      return {param.defaultValue};
+  }
+  return values;
+}
+
+bool allFinite(const Image& image) {
+  const Image values = converted(image, ComponentType::F32, 4);
+  return std::ranges::all_of(values.as<float>(), [](float v) { return std::isfinite(v); });
+}
+
+class EachPassDraws : public ::testing::TestWithParam<std::string> {
+ protected:
+  void TearDown() override { testing::expectNoDebugMessages(); }
+};
+INSTANTIATE_TEST_SUITE_P(Passes, EachPassDraws,
+                         ::testing::ValuesIn(testing::registry().typeNames()),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST_P(EachPassDraws, FiniteValuesAtTheEndsOfEachParameter) {
+  const scene::Scene scene = testing::sampleScene();
+  testing::SceneRenderer renderer(scene);
+  const Stage stage = stageOf(GetParam());
+  const std::string own = GetParam() + ".color";
+  const graph::PassDescription description = testing::registry().find(GetParam())->describe({});
+  const bool makesColor = description.output("color") != nullptr;
+  std::vector<std::string> kept;
+  if (makesColor) kept.push_back(own);
+  for (const graph::ParamDescription& param : description.params)
+    for (const graph::Value& value : extremes(param)) {
+      SCOPED_TRACE(param.name + "=" + graph::toText(value));
+      graph::Pipeline pipeline = testing::rows(stage.rows);
+      pipeline.output = stage.value;
+      for (graph::PassRow& row : pipeline.passes)
+        if (row.type == GetParam()) row.params[param.name] = value;
+      auto output = renderer.render(pipeline, kSize, kept);
+      ASSERT_TRUE(output) << output.error().message;
+      EXPECT_TRUE(allFinite(output->picture));
+      if (makesColor) {
+        ASSERT_TRUE(output->kept.contains(own));
+        EXPECT_TRUE(allFinite(output->kept.at(own)));
+      }
+    }
+}
+
+TEST_P(EachPassDraws, NothingWrongWhileItIsDisabled) {
+  if (GetParam() == "Cull") GTEST_SKIP() << "Cull has no stand-in: disabling it is refused";
+  const scene::Scene scene = testing::sampleScene();
+  testing::SceneRenderer renderer(scene);
+  const Stage stage = stageOf(GetParam());
+  graph::Pipeline pipeline = testing::rows(stage.rows);
+  for (graph::PassRow& row : pipeline.passes) row.enabled = row.type != GetParam();
+  auto output = renderer.render(pipeline, kSize);
+  ASSERT_TRUE(output) << output.error().message;
+  EXPECT_TRUE(allFinite(output->picture));
+}
+
+// The same surfaces, lights and formulas by two ways: they differ by the G-buffer's rounding only.
+double deferredAgainstForward(const scene::Scene& scene, uvec2 size) {
+  const auto picture = [&](std::vector<std::string> types) {
+    std::erase(types, "Transparency");
+    return testing::asFloatRgb(testing::pictureOf(scene, testing::rows(types), size));
+  };
+  return pixelMetrics(picture(testing::kForwardRows), picture(testing::kDeferredRows)).psnr;
+}
+
+TEST(DeferredAgainstForward, AgreeOnTheSampleScene) {
+  const double psnr = deferredAgainstForward(testing::sampleScene(), {320, 180});
+  std::printf("deferred against forward, sample scene: %.1f dB\n", psnr);
+  EXPECT_GE(psnr, 45.);
+  testing::expectNoDebugMessages();
+}
+
+TEST(DeferredAgainstForward, AgreeOnTheAtrium) {
+  const auto scene = scene::loadScene("builtin:atrium");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const double psnr = deferredAgainstForward(*scene, {640, 360});
+  std::printf("deferred against forward, atrium: %.1f dB\n", psnr);
+  EXPECT_GE(psnr, 45.);
+  testing::expectNoDebugMessages();
+}
+
+}  // namespace
+}  // namespace lucerna

@@ -1,0 +1,42 @@
+#include "passes/register_passes.hpp"
+
+#include "passes/background/background.hpp"
+#include "passes/cull/cull.hpp"
+#include "passes/forward/forward.hpp"
+#include "passes/gbuffer/gbuffer.hpp"
+#include "passes/lighting/lighting.hpp"
+#include "passes/show_bvh/show_bvh.hpp"
+#include "passes/show_gbuffer/show_gbuffer.hpp"
+#include "passes/tone_map/tone_map.hpp"
+#include "passes/transparency/transparency.hpp"
+
+// Made by the build from the shader files (cmake/embed_shaders.cmake).
+namespace lucerna::gpu {
+std::span<const EmbeddedShader> embeddedShaders_render();
+std::span<const EmbeddedShader> embeddedShaders_passes();
+}  // namespace lucerna::gpu
+
+namespace lucerna::passes {
+
+void registerPasses(graph::Registry& registry) {
+  registry.addResource<render::GpuScene>("scene", "Objects, meshes, materials, textures.");
+  registry.addResource<render::ViewData>("view", "Where this picture is seen from.", true);
+  registry.addResource<render::LightList>("lights", "The lights that are on.");
+
+  registry.add<Cull>();
+  registry.add<GBuffer>();
+  registry.add<Lighting>();
+  registry.add<Forward>();
+  registry.add<Background>();
+  registry.add<Transparency>();
+  registry.add<ToneMap>();
+  registry.add<ShowGBuffer>();
+  registry.add<ShowBvh>();
+}
+
+void registerShaders(gpu::ShaderSources& sources) {
+  sources.add(gpu::embeddedShaders_render());
+  sources.add(gpu::embeddedShaders_passes());
+}
+
+}  // namespace lucerna::passes

@@ -1,0 +1,43 @@
+#include "passes/transparency/transparency.hpp"
+
+namespace lucerna::passes {
+
+using gpu::Format;
+
+void Transparency::describe(graph::PassInfo<Params, Ports>& d) {
+  d.pass("Transparency", "Draws translucent objects back to front over the picture.");
+  d.needs(gpu::kFeatureMultiDrawIndirect);
+  d.needs(gpu::kFeatureDualSourceBlend);
+  d.param("ambient", &Params::ambient).range(0, 100).help("Factor on the scene's ambient light.");
+  d.param("backFaces", &Params::backFaces)
+      .help("Draw the back faces of single-sided materials, too.");
+  d.read("scene", &Ports::scene).help("Geometry and materials.");
+  d.read("view", &Ports::view).help("The view to draw from.");
+  d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("drawLists", &Ports::drawLists).help("What to draw: its transparent list, in its order.");
+  d.read("depth", &Ports::depth)
+      .texture(Format::Depth32F)
+      .help("Reversed depth of the opaque surfaces, which hide what lies behind.");
+  d.update("color", &Ports::color).texture(Format::Rgba16Float).help("Linear radiance.");
+}
+
+Transparency::Transparency(gpu::Device& device)
+    : program_(device.program({.vertex = "render/object.vert",
+                               .fragment = "render/forward.frag",
+                               .defines = {{"TRANSPARENT", "1"}}})) {}
+
+void Transparency::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
+  const render::DrawList& list = ports.drawLists->transparent;
+  if (list.objects.empty()) return;
+  gpu::Rendering rendering =
+      context.device.render({.colors = {{ports.color.get()}}, .depth = {ports.depth.get()}});
+  const gpu::RenderState state{.depthTest = true,
+                               .blend = gpu::Blend::Transmit,
+                               .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
+  rendering.use(*program_, state);
+  program_->set("ambientScale", params.ambient);
+  rendering.buffer("LightBlock", ports.lights->block);
+  drawList(rendering, *ports.scene, list, *program_, state, ports.view->block);
+}
+
+}  // namespace lucerna::passes

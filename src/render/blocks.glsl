@@ -1,0 +1,51 @@
+// The blocks that C++ fills and shaders read. Compiled by both: by GLSL as it stands, by C++ through
+// render/blocks.hpp, which lends it the vector types and checks the sizes. Every member is a multiple
+// of 16 bytes, so std140, std430 and C++ agree.
+
+// Uniform block ViewBlock (render/view.glsl).
+struct ViewValues {
+  mat4 viewFromWorld;
+  mat4 worldFromView;
+  mat4 clipFromView;   // reversed depth, clip z in [0, w]
+  mat4 viewFromClip;   // inverted in double precision
+  vec4 eyeW;           // perspective: (position, 1); orthographic: (unit vector towards the eye, 0)
+  vec4 size;           // width, height in pixels; 1 / width, 1 / height
+};
+
+// How one material slot reads its texture.
+struct TextureUse {
+  vec4 matrix;         // columns of the 2x2 matrix on uv
+  vec4 offset;         // xy: added to it; z: texture coordinate set, 0 or 1; w: 1 if the slot is used
+};
+
+// Element of the storage block MaterialBlock (render/scene.glsl).
+struct MaterialValues {
+  vec4 albedo;         // linear; a: opacity
+  vec4 emissive;       // rgb: linear radiance; w: normal map scale
+  vec4 transmission;   // rgb: colour let through; w: alpha cutoff
+  vec4 specular;       // rgb: Phong specular, linear; w: Phong exponent
+  vec4 surface;        // metallic, roughness, occlusion strength, material type (render/gbuffer.glsl)
+  TextureUse albedoUse;
+  TextureUse emissiveUse;
+  TextureUse normalUse;
+  TextureUse metallicRoughnessUse;
+  TextureUse occlusionUse;
+};
+
+// Element of the storage block ObjectBlock (render/scene.glsl).
+struct ObjectValues {
+  mat4 worldFromObject;
+  vec4 normalMatrix0;  // columns of the matrix on normals (to be normalised after);
+  vec4 normalMatrix1;
+  vec4 normalMatrix2;
+  uvec4 info;          // material index; 1 if the matrix flips orientation; unused; unused
+};
+
+// Element of the storage block LightBlock (render/lights.glsl); world space.
+struct LightValues {
+  vec4 position;       // (position, 1), or (direction towards the light, 0) of a directional one
+  vec4 axis;           // xyz: unit, from the light into the scene; w: exponent of the cone
+  vec4 intensity;      // rgb; w: 1 / reach in 1/m, 0 if it reaches everywhere
+  vec4 attenuation;    // constant, linear, quadratic; w: cosine of the outer cone, -2 without cone
+  vec4 shape;          // 1 / (cosine of inner - outer cone), radius in m, angle in rad, unused
+};

@@ -1,0 +1,113 @@
+#include "render/gpu_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/blocks.hpp"
+#include "render/upload.hpp"
+
+namespace lucerna::render {
+namespace {
+
+// The matrix on normals up to a positive factor: cofactors need no division, so a matrix that
+// flattens an axis still gives finite normals.
+mat3 normalMatrix(const mat3& m) {
+  const mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  return glm::dot(m[0], cofactors[0]) < 0.f ? -1.f * cofactors : cofactors;
+}
+
+bool flipsOrientation(const mat4& worldFromObject) {
+  return glm::determinant(mat3(worldFromObject)) < 0.f;
+}
+
+blocks::ObjectValues objectValues(const scene::Scene& scene, const scene::Object& object) {
+  const mat4& worldFromObject = scene.nodes[object.node].worldFromNode;
+  // Scaled so that the shader's normalisation neither overflows nor underflows.
+  mat3 normals = normalMatrix(mat3(worldFromObject));
+  float largest = 0.f;
+  for (int column = 0; column < 3; ++column)
+    largest = std::max(largest, glm::length(normals[column]));
+  if (largest > 0.f) normals *= 1.f / largest;
+  return {.worldFromObject = worldFromObject,
+          .normalMatrix0 = vec4(normals[0], 0.f),
+          .normalMatrix1 = vec4(normals[1], 0.f),
+          .normalMatrix2 = vec4(normals[2], 0.f),
+          .info = uvec4(object.material, flipsOrientation(worldFromObject) ? 1 : 0, 0, 0)};
+}
+
+blocks::TextureUse textureUse(const scene::TextureSlot& slot) {
+  const float c = std::cos(slot.rotation);
+  const float s = std::sin(slot.rotation);
+  // Counter-clockwise as one sees it, with v pointing down: (1, 0) turns to (c, -s).
+  return {.matrix = vec4(c * slot.scale.x, -s * slot.scale.x, s * slot.scale.y, c * slot.scale.y),
+          .offset = vec4(slot.offset, slot.texCoord == 1 ? 1.f : 0.f, slot.used() ? 1.f : 0.f)};
+}
+
+blocks::MaterialValues materialValues(const scene::Material& m) {
+  const bool phong = m.model == scene::MaterialModel::Phong;
+  return {.albedo = m.albedo,
+          .emissive = vec4(m.emissive, m.normalScale),
+          .transmission = vec4(m.transmission, m.alphaCutoff),
+          .specular = vec4(phong ? m.specular : vec3(0.f), m.shininess),
+          .surface = vec4(phong ? 0.f : m.metallic, phong ? 1.f : m.roughness, m.occlusionStrength,
+                          phong ? 1.f : 2.f),
+          .albedoUse = textureUse(m.albedoTexture),
+          .emissiveUse = textureUse(m.emissiveTexture),
+          .normalUse = textureUse(m.normalTexture),
+          .metallicRoughnessUse = textureUse(m.metallicRoughnessTexture),
+          .occlusionUse = textureUse(m.occlusionTexture)};
+}
+
+// Blocks of no elements cannot be bound: there is always one.
+template <typename T>
+std::span<const std::byte> bytesOf(std::vector<T>& values) {
+  values.resize(std::max<std::size_t>(values.size(), 1));
+  return std::as_bytes(std::span(values));
+}
+
+void uploadObjects(gpu::Device& device, GpuScene& gpuScene) {
+  const scene::Scene& scene = *gpuScene.scene;
+  std::vector<blocks::ObjectValues> values;
+  gpuScene.mirrored.clear();
+  for (const scene::Object& object : scene.objects) {
+    values.push_back(objectValues(scene, object));
+    gpuScene.mirrored.push_back(flipsOrientation(scene.nodes[object.node].worldFromNode));
+  }
+  device.write(gpuScene.objects, bytesOf(values), "ObjectBlock");
+}
+
+void uploadMaterials(gpu::Device& device, GpuScene& gpuScene) {
+  std::vector<blocks::MaterialValues> values;
+  for (const scene::Material& material : gpuScene.scene->materials)
+    values.push_back(materialValues(material));
+  device.write(gpuScene.materials, bytesOf(values), "MaterialBlock");
+}
+
+void buildBvh(GpuScene& gpuScene) {
+  std::vector<Aabb> boxes;
+  for (const scene::Object& object : gpuScene.scene->objects) boxes.push_back(object.boundsW);
+  gpuScene.bvh.build(boxes);
+}
+
+}  // namespace
+
+void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene) {
+  gpuScene.scene = &scene;
+  gpuScene.changes = {.everything = true, .movedObjects = {}, .lights = true, .materials = true};
+  uploadGeometry(device, gpuScene);
+  uploadTextures(device, gpuScene);
+  uploadMaterials(device, gpuScene);
+  uploadObjects(device, gpuScene);
+  buildBvh(gpuScene);
+}
+
+void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::uint32_t> moved) {
+  gpuScene.changes = {};
+  gpuScene.changes.everything = false;
+  gpuScene.changes.movedObjects.assign(moved.begin(), moved.end());
+  if (moved.empty()) return;
+  uploadObjects(device, gpuScene);
+  buildBvh(gpuScene);
+}
+
+}  // namespace lucerna::render

@@ -1,0 +1,39 @@
+// Places the scene's vertices: the vertex shader of everything that draws a render::DrawList.
+#include "render/scene.glsl"
+#include "render/view.glsl"
+
+layout(location = 0) in vec3 positionO;
+layout(location = 1) in vec3 normalO;
+layout(location = 2) in vec4 tangentO;     // w: handedness; all 0 where the mesh has none
+layout(location = 3) in vec2 texCoord0;
+layout(location = 4) in vec2 texCoord1;
+layout(location = 5) in vec4 color;        // linear
+layout(location = 6) in uint objectIndex;  // once an instance, reached through baseInstance
+
+// Two programs that draw the same object must give the same depth.
+invariant gl_Position;
+
+layout(location = 0) out vec3 positionW;
+layout(location = 1) out vec3 normalW;
+layout(location = 2) out vec4 tangentW;    // w: handedness in the world; all 0 where there is none
+layout(location = 3) out vec4 texCoords;   // set 0 in xy, set 1 in zw
+layout(location = 4) out vec4 vertexColor;
+layout(location = 5) flat out uint materialIndex;
+
+void main() {
+  ObjectValues object = objects[objectIndex];
+  mat3 normalMatrix =
+      mat3(object.normalMatrix0.xyz, object.normalMatrix1.xyz, object.normalMatrix2.xyz);
+  vec4 position = object.worldFromObject * vec4(positionO, 1.0);
+  positionW = position.xyz;
+  normalW = normalMatrix * normalO;
+  // Unequal scales would weight the corners of a triangle differently.
+  normalW *= inversesqrt(max(dot(normalW, normalW), 1e-30));
+  // A mirror image turns the bitangent round.
+  float handedness = object.info.y == 1u ? -tangentO.w : tangentO.w;
+  tangentW = vec4(mat3(object.worldFromObject) * tangentO.xyz, handedness);
+  texCoords = vec4(texCoord0, texCoord1);
+  vertexColor = color;
+  materialIndex = object.info.x;
+  gl_Position = view.clipFromView * (view.viewFromWorld * position);
+}

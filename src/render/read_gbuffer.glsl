@@ -1,0 +1,26 @@
+// Reading the G-buffer back into a Surface.
+#include "render/gbuffer.glsl"
+
+uniform sampler2D depth;
+uniform sampler2D normal;
+uniform sampler2D albedo;
+uniform sampler2D specular;
+uniform usampler2D material;
+uniform sampler2D emissive;
+
+// pixel: texel of the G-buffer; its depth must not be 0 (nothing drawn).
+Surface readSurface(ivec2 pixel) {
+  Surface s;
+  float reversedDepth = texelFetch(depth, pixel, 0).r;
+  vec3 positionV = positionVOf(ndcOfPixel(vec2(pixel) + 0.5), reversedDepth);
+  s.positionW = worldOfView(positionV);
+  s.normalW = mat3(view.worldFromView) * decodeNormal(texelFetch(normal, pixel, 0).rg);
+  s.toEyeW = toEyeFrom(s.positionW);
+  s.albedo = texelFetch(albedo, pixel, 0).rgb;
+  vec4 specularTexel = texelFetch(specular, pixel, 0);
+  s.specular = specularTexel.rgb;
+  s.occlusion = specularTexel.a;
+  s.emissive = texelFetch(emissive, pixel, 0).rgb;
+  unpackMaterial(texelFetch(material, pixel, 0), s);
+  return s;
+}

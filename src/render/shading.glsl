@@ -1,0 +1,82 @@
+// What a surface sends to the eye. The one place that shades: Lighting, Forward and Transparency
+// call shade() with the same Surface, so they agree.
+#include "render/lights.glsl"
+
+// Material types, as the G-buffer stores them.
+const uint kTypeNothing = 0u;
+const uint kTypePhong = 1u;
+const uint kTypeMetallicRoughness = 2u;
+const uint kTypeCustom = 3u;
+
+const float kPi = 3.14159265358979;
+// Below this a point light's highlight is smaller than a pixel and D overflows.
+const float kLowestRoughness = 0.045;
+
+struct Surface {
+  uint type;
+  vec3 positionW;
+  vec3 normalW;        // unit, on the side that is seen
+  vec3 toEyeW;         // unit
+  vec3 albedo;
+  vec3 emissive;       // radiance
+  float occlusion;     // of ambient light, 1: none
+  vec3 specular;       // Phong
+  float shininess;     // Phong
+  float metallic;
+  float roughness;
+};
+
+// Radiance for unit irradiance E on a surface facing the light:
+//   Phong  (rd (n.l) + rs (v.r)^h) / pi    for n.l > 0; the division turns E into system A's IL
+vec3 reflectedPhong(Surface s, vec3 toLightW, float cosLight) {
+  vec3 reflectedW = 2.0 * cosLight * s.normalW - toLightW;
+  float highlight = pow(max(dot(s.toEyeW, reflectedW), 1e-6), s.shininess);
+  return (s.albedo * cosLight + s.specular * highlight) / kPi;
+}
+
+//   metallic-roughness  ((1 - F)(1 - metallic) albedo / pi + D V F) (n.l)
+// D: Trowbridge-Reitz; V: Smith, height-correlated (Heitz, JCGT 3(2), 2014, eq. 99, over 4 n.l n.v);
+// F: Schlick 1994; the mix of both lobes as in glTF 2.0 appendix B. Alpha is roughness squared.
+vec3 reflectedMetallicRoughness(Surface s, vec3 toLightW, float cosLight) {
+  float roughness = max(s.roughness, kLowestRoughness);
+  float alpha = roughness * roughness;
+  float alpha2 = alpha * alpha;
+  vec3 halfwayW = normalize(toLightW + s.toEyeW);
+  float cosEye = max(dot(s.normalW, s.toEyeW), 1e-4);
+  float cosHalf = clamp(dot(s.normalW, halfwayW), 0.0, 1.0);
+  float cosDifference = clamp(dot(s.toEyeW, halfwayW), 0.0, 1.0);
+
+  // 1 - cosHalf^2 (1 - alpha2), without cancellation near cosHalf = 1.
+  vec3 sine = cross(s.normalW, halfwayW);
+  float spread = dot(sine, sine) + cosHalf * cosHalf * alpha2;
+  float distribution = alpha2 / (kPi * spread * spread);
+  float visibility = 0.5 / (cosLight * sqrt(cosEye * cosEye * (1.0 - alpha2) + alpha2) +
+                            cosEye * sqrt(cosLight * cosLight * (1.0 - alpha2) + alpha2));
+  vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
+  float x = 1.0 - cosDifference;
+  vec3 fresnel = f0 + (1.0 - f0) * (x * x * x * x * x);
+
+  vec3 diffuse = (1.0 - fresnel) * (1.0 - s.metallic) * s.albedo / kPi;
+  return (diffuse + distribution * visibility * fresnel) * cosLight;
+}
+
+vec3 reflectedLight(Surface s, uint lightIndex) {
+  LightSample light = sampleLight(lights[lightIndex], s.positionW);
+  float cosLight = dot(s.normalW, light.toLightW);
+  if (cosLight <= 0.0) return vec3(0.0);  // specular terms, too
+  vec3 reflectance = s.type == kTypePhong
+                         ? reflectedPhong(s, light.toLightW, cosLight)
+                         : reflectedMetallicRoughness(s, light.toLightW, cosLight);
+  return reflectance * light.irradiance;
+}
+
+// Factor on the ambient light; each pass that shades has it as a parameter.
+uniform float ambientScale = 1.0;
+
+vec3 shade(Surface s) {
+  vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * s.albedo * s.occlusion;
+  for (uint i = nextLight(0u, s.positionW, s.normalW); i < lightCount.x;
+       i = nextLight(i + 1u, s.positionW, s.normalW))
+    radiance += reflectedLight(s, i);
+  return radiance;
+}

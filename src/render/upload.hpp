@@ -1,0 +1,14 @@
+// Parts of upload() (render/gpu_scene.hpp), one a file.
+#pragma once
+
+#include "render/gpu_scene.hpp"
+
+namespace lucerna::render {
+
+// meshes, vertices, indices, objectIndices, input.
+void uploadGeometry(gpu::Device& device, GpuScene& gpuScene);
+
+// textures, linearTextures, samplers, white, backgroundCube.
+void uploadTextures(gpu::Device& device, GpuScene& gpuScene);
+
+}  // namespace lucerna::render

@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "core/parallel.hpp"
+#include "render/upload.hpp"
+
+namespace lucerna::render {
+namespace {
+
+using Snorm16x4 = std::array<std::int16_t, 4>;
+
+struct Vertex {
+  vec3 position{0.f};
+  Snorm16x4 normal{};
+  Snorm16x4 tangent{};
+  vec2 texCoord0{0.f}, texCoord1{0.f};
+  u8vec4 color{255};
+};
+static_assert(sizeof(Vertex) == 48);
+
+std::int16_t snorm16(float value) {
+  const float scaled = std::clamp(value, -1.f, 1.f) * 32767.f;
+  return static_cast<std::int16_t>(scaled < 0.f ? scaled - 0.5f : scaled + 0.5f);
+}
+
+Snorm16x4 packed(vec3 v, float w) {
+  return {snorm16(v.x), snorm16(v.y), snorm16(v.z), snorm16(w)};
+}
+
+Vertex vertexOf(const scene::Mesh& mesh, std::size_t i) {
+  Vertex vertex{.position = mesh.positions[i]};
+  if (!mesh.normals.empty()) vertex.normal = packed(mesh.normals[i], 0.f);
+  if (!mesh.tangents.empty()) {
+    const vec4 tangent = mesh.tangents[i];
+    vertex.tangent = packed(vec3(tangent), tangent.w < 0.f ? -1.f : 1.f);
+  }
+  if (!mesh.texCoords[0].empty()) vertex.texCoord0 = mesh.texCoords[0][i];
+  if (!mesh.texCoords[1].empty()) vertex.texCoord1 = mesh.texCoords[1][i];
+  if (!mesh.colors.empty()) vertex.color = mesh.colors[i];
+  return vertex;
+}
+
+void makeInput(gpu::Device& device, GpuScene& gpuScene) {
+  using Type = gpu::VertexAttribute::Type;
+  const auto at = [](std::size_t offset) { return static_cast<std::uint32_t>(offset); };
+  gpuScene.input = device.createVertexInput(
+      {.buffers = {{.buffer = &gpuScene.vertices, .stride = sizeof(Vertex), .divisor = 0},
+                   {.buffer = &gpuScene.objectIndices, .stride = 4, .divisor = 1}},
+       .attributes = {{0, 0, 3, Type::Float, at(offsetof(Vertex, position))},
+                      {1, 0, 3, Type::Snorm16, at(offsetof(Vertex, normal))},
+                      {2, 0, 4, Type::Snorm16, at(offsetof(Vertex, tangent))},
+                      {3, 0, 2, Type::Float, at(offsetof(Vertex, texCoord0))},
+                      {4, 0, 2, Type::Float, at(offsetof(Vertex, texCoord1))},
+                      {5, 0, 4, Type::Unorm8, at(offsetof(Vertex, color))},
+                      {6, 1, 1, Type::Uint32, 0}},
+       .indices = &gpuScene.indices},
+      "scene");
+}
+
+}  // namespace
+
+void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
+  const scene::Scene& scene = *gpuScene.scene;
+  std::size_t vertexCount = 0;
+  std::size_t indexCount = 0;
+  gpuScene.meshes.clear();
+  for (const scene::Mesh& mesh : scene.meshes) {
+    gpuScene.meshes.push_back({.firstIndex = static_cast<std::uint32_t>(indexCount),
+                               .indexCount = static_cast<std::uint32_t>(mesh.indices.size()),
+                               .baseVertex = static_cast<std::int32_t>(vertexCount)});
+    vertexCount += mesh.positions.size();
+    indexCount += mesh.indices.size();
+  }
+
+  std::vector<Vertex> vertices(std::max<std::size_t>(vertexCount, 1));
+  std::vector<std::uint32_t> indices(std::max<std::size_t>(indexCount, 1));
+  for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
+    const scene::Mesh& mesh = scene.meshes[m];
+    Vertex* first = vertices.data() + gpuScene.meshes[m].baseVertex;
+    parallelFor(mesh.positions.size(), 16384, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) first[i] = vertexOf(mesh, i);
+    });
+    std::ranges::copy(mesh.indices, indices.begin() + gpuScene.meshes[m].firstIndex);
+  }
+  std::vector<std::uint32_t> objectIndices(std::max<std::size_t>(scene.objects.size(), 1));
+  for (std::size_t i = 0; i < objectIndices.size(); ++i)
+    objectIndices[i] = static_cast<std::uint32_t>(i);
+
+  gpuScene.vertices = device.createBuffer(std::as_bytes(std::span(vertices)), "vertices");
+  gpuScene.indices = device.createBuffer(std::as_bytes(std::span(indices)), "indices");
+  gpuScene.objectIndices =
+      device.createBuffer(std::as_bytes(std::span(objectIndices)), "object indices");
+  makeInput(device, gpuScene);
+}
+
+}  // namespace lucerna::render

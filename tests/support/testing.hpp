@@ -1,0 +1,98 @@
+// What GL tests share: one device for the program, and pictures of scenes through pipelines.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/result.hpp"
+#include "gpu/device.hpp"
+#include "graph/executor.hpp"
+#include "graph/pipeline.hpp"
+#include "graph/registry.hpp"
+#include "image/image.hpp"
+#include "render/gpu_scene.hpp"
+#include "render/light_list.hpp"
+#include "render/view_data.hpp"
+#include "scene/scene.hpp"
+
+namespace lucerna::testing {
+
+// The program's only device, made on first use with the shaders of all passes. Ends the program
+// with a message if there is no OpenGL: GL tests carry the label "gl" and are not run without it.
+gpu::Device& device();
+
+// All passes that ship.
+const graph::Registry& registry();
+
+// Fails the running test for each debug message of severity medium or above since the last call.
+void expectNoDebugMessages();
+
+// A pipeline of rows that are named as their types: rows({"Cull", "GBuffer", "Lighting"}).
+graph::Pipeline rows(const std::vector<std::string>& types);
+extern const std::vector<std::string> kDeferredRows, kForwardRows;
+
+// A scene on the GPU, drawn through any number of pipelines.
+class SceneRenderer {
+ public:
+  // The scene must outlive it.
+  explicit SceneRenderer(const scene::Scene& scene);
+
+  struct Output {
+    Image picture;  // the pipeline's output, top row first, in its format's type
+    std::map<std::string, Image> kept;  // further values by name, "GBuffer.depth"
+    graph::FrameProfile profile;
+  };
+  // From the scene's first camera, or the given view.
+  Result<Output> render(const graph::Pipeline& pipeline, uvec2 size,
+                        const std::vector<std::string>& kept = {});
+  Result<Output> render(const graph::Pipeline& pipeline, const scene::View& view, uvec2 size,
+                        const std::vector<std::string>& kept = {});
+
+  render::GpuScene gpuScene;
+  render::LightList lights;
+  render::ViewData view;
+  bool profiling = false;
+
+ private:
+  const scene::Scene& scene_;
+  graph::Executor executor_;
+};
+
+// The picture of a pipeline, whose failure ends the test.
+Image pictureOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec2 size);
+// The value `kept` ("Lighting.color") of it instead.
+Image valueOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec2 size,
+              const std::string& kept);
+
+// Linear radiance in the middle of the picture, from a half-float colour image.
+vec3 colorAt(const Image& image, int x, int y);
+inline vec3 centerOf(const Image& image) {
+  return colorAt(image, image.width() / 2, image.height() / 2);
+}
+
+// Three channels of F32, as the metrics want them.
+Image asFloatRgb(const Image& image);
+
+// A small scene with every kind of surface and light that the passes tell apart: Phong and
+// metallic-roughness, textured, alpha-tested and translucent boxes on a floor; a directional, a
+// point and a spot light; a camera.
+scene::Scene sampleScene();
+
+// A scene with a camera at the origin that looks along -z, and nothing else: no light, no ambient,
+// a black background.
+scene::Scene emptyScene();
+// A wall of 10 m at z = -distance that faces the camera of emptyScene(); returns its material.
+scene::Material& addWall(scene::Scene& scene, float distance);
+// Adds a light; it stands at `eye` and shines towards `target`.
+void addLight(scene::Scene& scene, scene::Light light, vec3 eye, vec3 target);
+
+// A unit cube's mesh (side 1, centred) with normals, tangents and texture coordinates.
+scene::Mesh cubeMesh();
+// Adds an object with the mesh and material given by index.
+void addObject(scene::Scene& scene, std::uint32_t mesh, std::uint32_t material,
+               const mat4& worldFromObject);
+// Adds a camera at `eye` that looks at `target`.
+void addCamera(scene::Scene& scene, vec3 eye, vec3 target, float fovY = 0.9f);
+
+}  // namespace lucerna::testing
