@@ -62,8 +62,9 @@ class Image {
   std::vector<std::byte> data_;
 };
 
-// Converts component type and channel count. U8/U16 are unorm; no colour-space change. A missing
-// alpha becomes 1, missing colours copy the first channel; surplus channels are dropped.
+// Converts component type and channel count. U8/U16 are unorm; no colour-space change. 1 and 2
+// channels are grey and grey with alpha, 3 and 4 colour and colour with alpha: a missing alpha
+// becomes 1, grey is copied to the colours, colour becomes grey by taking red.
 Image converted(const Image& image, ComponentType type, int channels);
 Image flippedVertically(const Image& image);
 float srgbFromLinear(float linear);  // clamps to [0, 1]
