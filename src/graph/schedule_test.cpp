@@ -95,7 +95,7 @@ TEST_F(Schedules, ACopyStandsOnlyWhereAnOlderVersionIsStillRead) {
 
 TEST_F(Schedules, OnlyTheLastOfTwoUpdatersWorksInPlace) {
   const Schedule s = of({"Make", row("Update", "U1"), row("Update", "U2").reads("color", "Make"),
-                         FakeRow("Mix").reads("color", "U1").reads("other", "U2")});
+                         FakeRow("Mix").reads("color", "U1").reads("other", "U2.color")});
   EXPECT_THAT(steps(s), ElementsAre("Make", "(copy) Make.color", "U1", "U2", "Mix"));
   EXPECT_EQ(version(s, "Make.color").physical, version(s, "U2.color").physical);
 }

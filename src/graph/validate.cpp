@@ -40,9 +40,9 @@ class Validator {
     for (std::size_t i = 0; i < pipeline_.passes.size(); ++i)
       if (pipeline_.passes[i].enabled && descriptions_[i]) resolveRow(i);
     checkOrder();
-    checkUpdates();
     resolveOutputs(kept);
     cull();
+    checkUpdates();
     std::stable_sort(faults_.begin(), faults_.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     Validation result;
@@ -92,6 +92,7 @@ class Validator {
                 .remedy = fmt::format("give one a \"name\", such as '{}2'", row.name)});
       RowCheck check = checkRow(pipeline_, i, registry_, capabilities_);
       descriptions_[i] = std::move(check.description);
+      wiringKnown_ = wiringKnown_ && descriptions_[i];
       for (Fault& fault : check.faults) faults_.emplace_back(i, std::move(fault));
     }
     if (!anyEnabled)
@@ -110,6 +111,7 @@ class Validator {
       const Binding& binding = wiring_.input(index, port);
       const std::string where = inputPlace(index, port.name);
       if (binding.problem) report(index, where, *binding.problem);
+      wiringKnown_ = wiringKnown_ && !binding.problem;
       if (binding.warning) report(index, where, *binding.warning, Severity::Warning);
       if (!binding.problem) checkBinding(index, port, binding.source);
       resolved.inputs.push_back({.port = port.name,
@@ -200,7 +202,7 @@ class Validator {
   void checkUpdates() {
     for (const ResolvedRow& updater : plan_.rows)
       for (const PortDescription& port : updater.description.ports) {
-        if (port.direction != Direction::InOut || port.type.texture) continue;
+        if (updater.culled || port.direction != Direction::InOut || port.type.texture) continue;
         const Source& old = updater.input(port.name)->source;
         if (old.kind != Source::Kind::Output || old.row >= updater.row) continue;
         if (updater.description.frequency > descriptions_[old.row]->frequency)
@@ -213,7 +215,8 @@ class Validator {
                   .remedy = "update data that is made as often as it is updated"});
         for (const ResolvedRow& reader : plan_.rows)
           for (const ResolvedInput& input : reader.inputs)
-            if (input.source.sameAs(old) && wantsOld(updater, port, reader, input))
+            if (!reader.culled && input.source.sameAs(old) &&
+                wantsOld(updater, port, reader, input))
               report(reader.row, inputPlace(reader.row, input.port),
                      {.kind = FaultKind::ReadAfterUpdate,
                       .found = fmt::format("{}, which '{}' updates before this pass runs",
@@ -287,11 +290,11 @@ class Validator {
       if (!row) continue;
       for (const ResolvedInput& input : row->inputs) need(input.source);
     }
-    const bool outputKnown = plan_.output.kind != Source::Kind::Unbound;
+    // With an unknown reader somewhere it would be hasty to say that nobody reads.
+    const bool sure = wiringKnown_ && plan_.output.kind != Source::Kind::Unbound;
     for (ResolvedRow& row : plan_.rows) {
       row.culled = !needed.contains(row.row);
-      if (row.culled && outputKnown)
-        report(row.row, place(row.row), neverRead(row), Severity::Warning);
+      if (row.culled && sure) report(row.row, place(row.row), neverRead(row), Severity::Warning);
     }
   }
 
@@ -313,6 +316,7 @@ class Validator {
   std::vector<std::optional<PassDescription>> descriptions_;
   Wiring wiring_;
   Plan plan_;
+  bool wiringKnown_ = true;                            // every pass type and every input was found
   std::vector<std::pair<std::size_t, Fault>> faults_;  // with the row that they are sorted by
 };
 

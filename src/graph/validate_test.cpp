@@ -159,14 +159,30 @@ TEST_F(Validate, ReadBeforeWrite) {
   EXPECT_THAT(fault.remedy, HasSubstr("move 'GBuffer' before 'Ao'"));
 }
 
-//    MakeLists -> SortLists -+
-//        |                   v (in place)
-//        +------------> DrawLists
+//    MakeLists -> SortLists -> Draw1
+//        |        (in place)
+//        +------------> Draw2
 TEST_F(Validate, ReadAfterUpdate) {
+  add(registry_, FakePass("Sink").in("color"));
   const Fault fault =
-      only(check({"MakeLists", "SortLists", FakeRow("DrawLists").reads("lists", "MakeLists")}),
+      only(check({"MakeLists", "SortLists", FakeRow("DrawLists").named("Draw1"), "Sink",
+                  FakeRow("DrawLists").named("Draw2").reads("lists", "MakeLists")}),
            FaultKind::ReadAfterUpdate);
+  EXPECT_THAT(fault.place, HasSubstr("'Draw2'"));
   EXPECT_THAT(fault.found, HasSubstr("'SortLists' updates"));
+}
+
+TEST_F(Validate, AnUpdateThatIsLeftOutDisturbsNobody) {
+  only(check({"MakeLists", "SortLists", FakeRow("DrawLists").reads("lists", "MakeLists")}),
+       FaultKind::OutputNeverRead, Severity::Warning);
+}
+
+//    MakeLists (per scene) -> SortLists (per view) -> DrawLists
+TEST_F(Validate, WrongFrequencyOfAnUpdate) {
+  add(registry_,
+      FakePass("MakeOnce").runs(Frequency::PerScene).data<Lists>("lists", Direction::Out));
+  EXPECT_THAT(only(check({"MakeOnce", "SortLists", "DrawLists"}), FaultKind::WrongFrequency).found,
+              HasSubstr("made per scene only"));
 }
 
 //    A -> B -> C -+
