@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/file.hpp"
+#include "gpu/workarounds.hpp"
+
 namespace lucerna::gpu {
 namespace {
 
@@ -59,6 +62,28 @@ TEST(Capabilities, FaultsAreNamed) {
   EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSamples": 1.5})"),
               HasSubstr("whole number"));
   EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "name": 3})"), HasSubstr("a string"));
+}
+
+TEST(Workarounds, FollowTheDriverAndCanBeSwitchedOff) {
+  using testing::ElementsAre;
+  Capabilities caps = Capabilities::baseline();
+  EXPECT_THAT(workaroundsFor(caps, ""), ElementsAre("keep-discarded-layers"));
+  caps.softwareRasterizer = true;
+  EXPECT_THAT(workaroundsFor(caps, ""),
+              ElementsAre("keep-discarded-layers", "no-anisotropy", "timers-on-cpu-clock"));
+  EXPECT_THAT(workaroundsFor(caps, "no-anisotropy,keep-discarded-layers"),
+              ElementsAre("timers-on-cpu-clock"));
+}
+
+TEST(Capabilities, Es3FileIsReadable) {
+  const std::string path = LUCERNA_SOURCE_DIR "/docs/dev/es3.json";
+  const auto text = readText(path);
+  ASSERT_TRUE(text) << text.error().message;
+  const auto caps = Capabilities::fromJson(*text, path);
+  ASSERT_TRUE(caps) << caps.error().message;
+  EXPECT_FALSE(caps->features.contains(kFeatureCompute));
+  EXPECT_FALSE(caps->renderable.contains(Format::Rg16Unorm));
+  EXPECT_EQ(caps->maxColorTargets, 4);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "gpu/context.hpp"
 #include "gpu/device_impl.hpp"
 #include "gpu/gl_format.hpp"
+#include "gpu/workarounds.hpp"
 
 namespace lucerna::gpu {
 namespace {
@@ -107,11 +108,13 @@ Result<std::unique_ptr<Device>> Device::create(Context& context) {
   std::unique_ptr<Device> device(new Device);
   Impl& impl = *device->impl_;
   impl.capabilities = readCapabilities();
-  impl.anisotropy = epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") ||
-                    epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic");
-  impl.description = glText(GL_VENDOR) + " | " + glText(GL_RENDERER) + " | " + glText(GL_VERSION);
-  if (impl.capabilities.softwareRasterizer)
-    impl.description += "; workarounds: timers-on-cpu-clock";
+  const char* disabled = std::getenv("LUCERNA_NO_WORKAROUNDS");
+  impl.workarounds = workaroundsFor(impl.capabilities, disabled ? disabled : "");
+  impl.anisotropy =
+      !impl.uses(kNoAnisotropy) && (epoxy_has_gl_extension("GL_ARB_texture_filter_anisotropic") ||
+                                    epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"));
+  impl.description = fmt::format("{} | {} | {}; workarounds: {}", glText(GL_VENDOR),
+                                 glText(GL_RENDERER), glText(GL_VERSION), join(impl.workarounds));
   // Only now: probing formats may have raised messages that mean nothing.
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -184,6 +187,10 @@ void Device::popGroup() {
   CHECK(!impl_->groups.empty(), "popGroup() without pushGroup()");
   impl_->groups.pop_back();
   glPopDebugGroup();
+}
+
+bool Device::Impl::uses(std::string_view workaround) const {
+  return std::ranges::find(workarounds, workaround) != workarounds.end();
 }
 
 // An empty label would erase what tools show.

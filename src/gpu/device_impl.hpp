@@ -99,8 +99,10 @@ struct Device::Impl {
   std::vector<std::pair<GLuint, GLuint>> units;  // texture and sampler of each texture unit
   std::map<FramebufferKey, GLuint> framebuffers;
   std::vector<std::pair<Sampler, GLuint>> samplers;
+  std::vector<std::string> workarounds;
   bool anisotropy = false;
 
+  bool uses(std::string_view workaround) const;
   void apply(const RenderState& wanted);
   GLuint framebuffer(const Targets& targets);
   GLuint sampler(const Sampler& value);

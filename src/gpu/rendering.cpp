@@ -4,6 +4,7 @@
 
 #include "gpu/device_impl.hpp"
 #include "gpu/gl_format.hpp"
+#include "gpu/workarounds.hpp"
 
 namespace lucerna::gpu {
 namespace {
@@ -40,7 +41,7 @@ std::uint64_t primitivesOf(Topology topology, std::uint64_t vertices) {
   return vertices;
 }
 
-// One layer of several. Invalidating that loses the other layers with Mesa 22.3: leave it be.
+// One layer of several.
 template <typename Target>
 bool isOneLayerOfMany(const Target& target) {
   return target.layer >= 0 && target.texture->desc().layers > 1;
@@ -52,8 +53,16 @@ bool isWhole(const Target& target) {
   return target.texture->desc().levels == 1 && !isOneLayerOfMany(target);
 }
 
-void loadColor(GLuint framebuffer, GLint index, const ColorTarget& target) {
-  if (target.load == Load::Discard && !isOneLayerOfMany(target)) {
+// The workaround keep-discarded-layers: invalidating one layer may lose the others.
+template <typename Target>
+bool mayInvalidate(const Device::Impl& impl, const Target& target) {
+  return target.load == Load::Discard &&
+         !(isOneLayerOfMany(target) && impl.uses(kKeepDiscardedLayers));
+}
+
+void loadColor(const Device::Impl& impl, GLint index, const ColorTarget& target) {
+  const GLuint framebuffer = impl.boundFramebuffer;
+  if (mayInvalidate(impl, target)) {
     const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index);
     glInvalidateNamedFramebufferData(framebuffer, 1, &attachment);
   }
@@ -75,9 +84,10 @@ void loadColor(GLuint framebuffer, GLint index, const ColorTarget& target) {
   }
 }
 
-void loadDepth(GLuint framebuffer, const DepthTarget& target) {
+void loadDepth(const Device::Impl& impl, const DepthTarget& target) {
+  const GLuint framebuffer = impl.boundFramebuffer;
   const bool stencil = target.texture->format() == Format::Depth32FStencil8;
-  if (target.load == Load::Discard && !isOneLayerOfMany(target)) {
+  if (mayInvalidate(impl, target)) {
     const GLenum attachment = stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
     glInvalidateNamedFramebufferData(framebuffer, 1, &attachment);
   }
@@ -192,12 +202,12 @@ Rendering::Rendering(Device& device, const Targets& targets) : Commands(device) 
   }
   impl.apply(withOpenMasks(impl.state));
   for (std::size_t i = 0; i < targets.colors.size(); ++i) {
-    loadColor(framebuffer, static_cast<GLint>(i), targets.colors[i]);
+    loadColor(impl, static_cast<GLint>(i), targets.colors[i]);
     if (isWhole(targets.colors[i]))
       impl.scope.colorTargets.push_back(targets.colors[i].texture->id());
   }
   if (targets.depth.texture) {
-    loadDepth(framebuffer, targets.depth);
+    loadDepth(impl, targets.depth);
     if (isWhole(targets.depth)) impl.scope.depthTarget = targets.depth.texture->id();
   }
 

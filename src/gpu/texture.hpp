@@ -55,7 +55,7 @@ enum class Filter : std::uint8_t {
   Nearest,
   Linear,
   Trilinear
-};  // Trilinear: mipmapped, 4x anisotropic
+};  // Trilinear: mipmapped, 4x anisotropic on GPUs
 enum class Address : std::uint8_t { Repeat, MirroredRepeat, ClampToEdge, ClampToBorder };
 
 // Samplers are values; the Device keeps one GL object per distinct value.

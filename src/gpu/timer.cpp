@@ -1,6 +1,7 @@
 // GPU timers: pairs of timestamp queries, which nest; or the CPU clock around a finished pipe on
 // software rasterisers, whose queries measure only the recording of commands.
 #include "gpu/device_impl.hpp"
+#include "gpu/workarounds.hpp"
 
 namespace lucerna::gpu {
 
