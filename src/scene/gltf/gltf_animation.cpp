@@ -1,6 +1,7 @@
 // Animations of nodes.
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "scene/gltf/convert.hpp"
 
@@ -32,10 +33,17 @@ std::vector<float> readTimes(Context& context, const Accessor& accessor) {
   if (accessor.components != 1) accessor.place.refuse(typeName(accessor), "SCALAR times");
   auto times = readFloats(context.document, accessor, 1);
   requireFinite(times, accessor);
+  float last = times[0];  // as the file says, before any key is moved
   for (std::size_t i = 1; i < times.size(); ++i) {
-    if (times[i] < times[i - 1]) {
-      accessor.place.refuse(fmt::format("{} s after {} s at element {}", times[i], times[i - 1], i),
+    if (times[i] < last) {
+      accessor.place.refuse(fmt::format("{} s after {} s at element {}", times[i], last, i),
                             "times that rise");
+    }
+    last = times[i];
+    if (times[i] <= times[i - 1]) {  // a jump: two keys at one time
+      times[i] = std::nextafter(times[i - 1], std::numeric_limits<float>::infinity());
+      context.document.warn(accessor.place.pointer() +
+                            " has keys at the same time: moved apart by the least possible");
     }
   }
   return times;

@@ -300,6 +300,21 @@ TEST_F(GltfFile, AnimationsKeepKeysAndInterpolation) {
   expectRefused({"/accessors/4", "2 values for 2 times", "3 a time"});
 }
 
+TEST_F(GltfFile, KeysAtTheSameTimeStayAJump) {
+  indexedSquare();
+  const int times = floats({0, 1, 1, 1, 2}, "SCALAR", 1);
+  const int places = floats(std::vector<float>(15, 0.f), "VEC3", 3);
+  root_["animations"][0] = {
+      {"samplers", {{{"input", times}, {"output", places}}}},
+      {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "scale"}}}}}}};
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto& read = scene->animations.at(0).channels.at(0).times;
+  for (std::size_t i = 1; i < read.size(); ++i) EXPECT_LT(read[i - 1], read[i]);
+  EXPECT_NEAR(read[3], 1.f, 1e-6f);
+  EXPECT_THAT(scene->warnings, Contains(HasSubstr("keys at the same time")));
+}
+
 TEST_F(GltfFile, InstancesBecomeObjects) {
   indexedSquare();
   const int places = floats({0, 0, 0, 5, 0, 0, 10, 0, 0}, "VEC3", 3);
