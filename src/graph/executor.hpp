@@ -34,10 +34,10 @@ class Imports {
 struct FrameInput {
   double time = 0, timeStep = 0;
   std::uint64_t frame = 0, seed = 0;
-  bool cut = false;                // history is void: first frame, camera cut, new scene
-  bool sceneChanged = true;        // per-scene passes run again
-  Imports shared;                  // resources that all views share
-  std::span<const Imports> views;  // one a view: its perView resources
+  bool cut = false;                  // history is void: first frame, camera cut, new scene
+  bool sceneChanged = true;          // per-scene passes run again
+  Imports shared{};                  // resources that all views share
+  std::span<const Imports> views{};  // one a view: its perView resources
 };
 
 // One step's cost in one frame.
