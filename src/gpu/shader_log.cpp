@@ -1,7 +1,5 @@
-#include <algorithm>
-#include <array>
 #include <charconv>
-#include <regex>
+#include <optional>
 
 #include "core/text.hpp"
 #include "gpu/shader_source.hpp"
@@ -9,36 +7,63 @@
 namespace lucerna::gpu {
 namespace {
 
-// How a driver writes a place. Capture groups: line of the expanded text, rest.
-struct LogForm {
-  std::regex pattern;
-  const char* severity;  // put before the rest where the form has it in front of the place
+// Reads a line of a log from left to right; each step says whether the text was there.
+struct Cursor {
+  std::string_view rest;
+
+  bool take(std::string_view text) {
+    if (!rest.starts_with(text)) return false;
+    rest.remove_prefix(text.size());
+    return true;
+  }
+  bool takeNumber(std::size_t& number) {
+    const auto parsed = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+    if (parsed.ec != std::errc()) return false;
+    rest.remove_prefix(static_cast<std::size_t>(parsed.ptr - rest.data()));
+    return true;
+  }
+  void skipBlanks() {
+    while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+  }
 };
 
-const std::array<LogForm, 4>& logForms() {
-  static const std::array<LogForm, 4> forms = {
-      LogForm{std::regex(R"(^\d+:(\d+)\(\d+\)\s*:\s*(.*)$)"), ""},           // Mesa
-      LogForm{std::regex(R"(^\d+\((\d+)\)\s*:\s*(.*)$)"), ""},               // NVIDIA
-      LogForm{std::regex(R"(^ERROR:\s*\d+:(\d+):\s*(.*)$)"), "error: "},     // AMD
-      LogForm{std::regex(R"(^WARNING:\s*\d+:(\d+):\s*(.*)$)"), "warning: "}  // AMD
-  };
-  return forms;
+struct Diagnostic {
+  std::size_t line = 0;  // of the expanded text, from 1
+  std::string text;      // "error: ..."
+};
+
+// "0:12(3): error: ..." (Mesa), "0(12) : error C0000: ..." (NVIDIA), "ERROR: 0:12: ..." (AMD).
+std::optional<Diagnostic> parse(std::string_view line) {
+  Cursor cursor{line};
+  std::string severity;
+  if (cursor.take("ERROR:"))
+    severity = "error: ";
+  else if (cursor.take("WARNING:"))
+    severity = "warning: ";
+  cursor.skipBlanks();
+  Diagnostic result;
+  std::size_t ignored = 0;
+  if (!cursor.takeNumber(ignored)) return std::nullopt;
+  if (cursor.take(":")) {
+    if (!cursor.takeNumber(result.line)) return std::nullopt;
+    if (cursor.take("(") && !(cursor.takeNumber(ignored) && cursor.take(")"))) return std::nullopt;
+  } else if (!(cursor.take("(") && cursor.takeNumber(result.line) && cursor.take(")"))) {
+    return std::nullopt;
+  }
+  cursor.skipBlanks();
+  if (!cursor.take(":")) return std::nullopt;
+  cursor.skipBlanks();
+  result.text = severity + std::string(cursor.rest);
+  return result;
 }
 
 std::string mapLine(const std::string& line, const ExpandedShader& shader) {
-  for (const LogForm& form : logForms()) {
-    std::smatch match;
-    if (!std::regex_match(line, match, form.pattern)) continue;
-    const std::string digits = match[1].str();
-    std::size_t number = 0;
-    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (parsed.ec != std::errc() || number < 1 || number > shader.lines.size()) return line;
-    const ExpandedShader::Place place = shader.lines[number - 1];
-    if (place.file < 0) return fmt::format("(defines): {}{}", form.severity, match[2].str());
-    return fmt::format("{}:{}: {}{}", shader.files[static_cast<std::size_t>(place.file)],
-                       place.line, form.severity, match[2].str());
-  }
-  return line;
+  const std::optional<Diagnostic> found = parse(line);
+  if (!found || found->line < 1 || found->line > shader.lines.size()) return line;
+  const ExpandedShader::Place place = shader.lines[found->line - 1];
+  if (place.file < 0) return "(defines): " + found->text;
+  return fmt::format("{}:{}: {}", shader.files[static_cast<std::size_t>(place.file)], place.line,
+                     found->text);
 }
 
 }  // namespace

@@ -128,6 +128,9 @@ TEST(ShaderLog, ThreeDriversFormsAreMapped) {
             "a/one.glsl:12: error: 'x' : undeclared identifier\na/main.frag:7: warning: odd");
   EXPECT_EQ(mapShaderLog("0:4(3): error: of no line\nsomething else", shader),
             "0:4(3): error: of no line\nsomething else");
+  for (const char* odd : {"0:3", "0:3(", "0:3(1)", "0(3", "0(3) x", ":3: x",
+                          "99999999999999999999:3: x", "ERROR: none", "0:-1: x", "0:0: x"})
+    EXPECT_EQ(mapShaderLog(odd, shader), odd);
   EXPECT_EQ(mapShaderLog("", shader), "");
 }
 
