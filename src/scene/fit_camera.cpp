@@ -12,12 +12,24 @@ namespace {
 
 constexpr float kFovY = 0.9f;                  // rad
 constexpr float kNarrowestAspect = 4.f / 3.f;  // the box fits outputs at least this wide
+constexpr float kLowestRoom = 1.5f;            // m
 constexpr int kDirections = 16;                // around the horizon
 constexpr float kPi = glm::pi<float>();
 
 struct Sight {
   float distance = std::numeric_limits<float>::infinity();  // m to the first surface
   bool front = false;                                       // it faces the eye
+
+  // Sheets modelled as two faces back to back count as walls.
+  void meet(float d, bool facesEye) {
+    const float tolerance = 1e-4f * d;
+    if (d < distance - tolerance) {
+      distance = d;
+      front = facesEye;
+    } else if (d < distance + tolerance) {
+      front = front || facesEye;
+    }
+  }
 };
 using Horizon = std::array<Sight, kDirections>;
 
@@ -46,7 +58,7 @@ void look(Horizon& horizon, vec3 eye, const std::array<vec3, 3>& corners) {
     const float v = glm::dot(ray, q) / det;
     const float distance = distanceTimesDet / det;
     if (u < 0.f || v < 0.f || u + v > 1.f || distance <= 0.f) continue;
-    if (distance < horizon[i].distance) horizon[i] = {distance, det > 0.f};
+    horizon[i].meet(distance, det > 0.f);
   }
 }
 
@@ -66,8 +78,9 @@ Horizon lookAround(const Scene& scene, vec3 eye) {
         look(own, eye, corners);
       }
       const std::lock_guard lock(mutex);
-      for (int i = 0; i < kDirections; ++i)
-        if (own[i].distance < horizon[i].distance) horizon[i] = own[i];
+      for (int i = 0; i < kDirections; ++i) {
+        if (std::isfinite(own[i].distance)) horizon[i].meet(own[i].distance, own[i].front);
+      }
     });
   }
   return horizon;
@@ -105,14 +118,14 @@ void addFittingCamera(Scene& scene) {
   const Aabb box = scene.boundsW();
   if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f));
 
-  // Inside: from the middle most sight lines end at the front of a wall. From the middle of a
-  // solid thing they end at back faces.
+  // A room: from its middle most sight lines end at the front of a wall; from the middle of a solid
+  // thing they end at back faces. A car has an inside too, but none to stand in.
   vec3 eye = box.center();
   eye.y = box.min.y + 0.3f * box.extent().y;
   const Horizon horizon = lookAround(scene, eye);
   const auto walls =
       std::count_if(horizon.begin(), horizon.end(), [](const Sight& sight) { return sight.front; });
-  if (walls < kDirections * 3 / 4)
+  if (walls < kDirections * 3 / 4 || box.extent().y < kLowestRoom)
     return addCamera(scene, eyeOutside(box, glm::normalize(vec3(0.5f, 0.45f, 1.f))), box.center());
 
   // Along the longest free line through the middle, from near its one end.

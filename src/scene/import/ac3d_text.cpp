@@ -57,6 +57,9 @@ std::string plainAc3d(std::string_view text) {
       std::from_chars(line.data() + 5, line.data() + line.size(), references);
     } else if (line.starts_with("texture ")) {
       const TextureLine texture = splitTexture(line);
+      // What TORCS' own tools write where there is no texture.
+      if (line.find("empty_texture_no_mapping") != line.npos || line.find("(null)") != line.npos)
+        continue;
       if (texture.layer == "tiled" || texture.layer == "skids" || texture.layer == "shad") continue;
       line = texture.nameAndKeyword;
     }

@@ -131,6 +131,8 @@ class MaterialConversion {
     if (hasOpacity) {
       albedo.alphaPath = opacity.path;
       material.alphaMode = AlphaMode::Mask;
+    } else if (file_.ac3d && material.alphaMode == AlphaMode::Opaque) {
+      material.alphaMode = AlphaMode::Mask;  // AC3D cuts out by the texture's own alpha, if any
     }
     material.albedoTexture = add(std::move(albedo), slot);
   }

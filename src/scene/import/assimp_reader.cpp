@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <fstream>
 
 #include "core/file.hpp"
 #include "scene/import/ac3d_text.hpp"
@@ -83,6 +84,8 @@ class Conversion {
     convertMeshes();
     if (source_.mRootNode) addNodes(*source_.mRootNode, kNone, metresFromFile, 0);
     convertLights(source_, nodes_, result_.scene);
+    const float unit = glm::length(vec3(metresFromFile[0]));  // m; attenuation is in file units
+    for (Light& light : result_.scene.lights) light.attenuation /= vec3(1.f, unit, unit * unit);
     convertCameras(source_, nodes_, result_.scene);
     convertAnimations(source_, nodes_, result_.scene);
     return std::move(result_);
@@ -183,6 +186,43 @@ const aiScene* read(Assimp::Importer& importer, const std::filesystem::path& pat
   return importer.ReadFile(path.string(), kSteps);
 }
 
+std::string withoutFullStop(std::string sentence) {
+  while (!sentence.empty() && (sentence.back() == '.' || sentence.back() == '\n'))
+    sentence.pop_back();
+  return sentence;
+}
+
+// assimp does not tell when a material library is not there. Files name theirs near the start.
+void warnOfMissingLibraries(const std::filesystem::path& path, Scene& scene) {
+  constexpr std::size_t kStart = 1 << 20;
+  std::string text(kStart, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  bool namesLibrary = false;
+  for (std::size_t at = 0; (at = text.find("mtllib ", at)) != text.npos;) {
+    const bool startsLine = at == 0 || text[at - 1] == '\n';
+    at += 7;
+    if (!startsLine) continue;
+    namesLibrary = true;
+    std::string name = text.substr(at, text.find_first_of("\r\n", at) - at);
+    while (!name.empty() && name.back() == ' ') name.pop_back();
+    std::error_code code;
+    if (std::filesystem::exists(path.parent_path() / name, code)) continue;
+    std::filesystem::path standIn = path;
+    standIn.replace_extension(".mtl");  // what assimp tries next
+    const std::string instead = std::filesystem::exists(standIn, code)
+                                    ? standIn.filename().string() + " is read instead"
+                                    : "its materials are a plain grey";
+    scene.warnings.push_back(fmt::format("the material library '{}' is not beside {}; {}", name,
+                                         path.filename().string(), instead));
+  }
+  if (!namesLibrary && text.find("\nusemtl ") != text.npos)
+    scene.warnings.push_back(
+        fmt::format("{} names materials but no library that holds them; they are a plain grey",
+                    path.filename().string()));
+}
+
 }  // namespace
 
 Result<ImportedScene> readWithAssimp(const std::filesystem::path& path) {
@@ -197,8 +237,10 @@ Result<ImportedScene> readWithAssimp(const std::filesystem::path& path) {
   const aiScene* scene = read(*importer, path, file);
   if (!scene)
     return error(ErrorKind::Input, "{}: {}; wanted a valid {} file; export it again", path.string(),
-                 importer->GetErrorString(), extension);
-  return Conversion(*scene, file).run(metresFromFile(*scene, extension));
+                 withoutFullStop(importer->GetErrorString()), extension);
+  ImportedScene imported = Conversion(*scene, file).run(metresFromFile(*scene, extension));
+  if (file.obj) warnOfMissingLibraries(path, imported.scene);
+  return imported;
 }
 
 }  // namespace lucerna::scene

@@ -51,7 +51,7 @@ Result<Scene> importScene(const std::filesystem::path& path) {
   Scene scene = std::move(imported->scene);
   if (scene.objects.empty())
     return error(ErrorKind::Input,
-                 "{}: holds no triangles; wanted a scene to draw; look whether it was cut off",
+                 "{}: holds no triangles; wanted a scene to draw; check whether it was cut off",
                  path.string());
   return scene;
 }

@@ -1,0 +1,184 @@
+#include "scene/scene_json.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "core/file.hpp"
+#include "scene/json_reader.hpp"
+#include "scene/load.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// A folder with a one-triangle file (material "paint", light "lamp" by JSON below) for each test.
+class SceneJson : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(testing::TempDir()) / "lucerna_scene_json" /
+              testing::UnitTest::GetInstance()->current_test_info()->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    write("tri.obj", "mtllib tri.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
+    write("tri.mtl", "newmtl paint\nKd 0.5 0.5 0.5\n");
+  }
+
+  void write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  // The messages of a JSON that is refused.
+  std::string faultsOf(const std::string& text) {
+    write("s.json", text);
+    const Result<Scene> scene = loadScene(path("s.json"));
+    if (scene) return "";
+    EXPECT_EQ(scene.error().kind, ErrorKind::Input);
+    return scene.error().message;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(SceneJson, BesideAFileIsReadWithIt) {
+  write("tri.lucerna.json", R"({"lucerna": "scene/1",
+    "materials": {"paint": {"model": "metallic-roughness", "metallic": 1, "albedo": [1, 0, 0]}},
+    "lights": [{"kind": "point", "position": [1, 2, 3], "units": "relative", "intensity": 2}],
+    "exposure": -1.5})");
+  const Result<Scene> scene = loadScene(path("tri.obj"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->materials[0].model, MaterialModel::MetallicRoughness);
+  EXPECT_EQ(vec3(scene->materials[0].albedo), vec3(1, 0, 0));
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_FLOAT_EQ(scene->lights[0].intensity, 2.f * glm::pi<float>());
+  EXPECT_EQ(placeLights(*scene)[0].positionW, vec3(1, 2, 3));
+  EXPECT_EQ(scene->exposure, -1.5f);
+}
+
+TEST_F(SceneJson, IncludesArePlaced) {
+  write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"},
+    {"file": "tri.obj", "translation": [10, 0, 0], "rotation": [0, 0, 90], "scale": 2}]})");
+  const Result<Scene> scene = loadScene(path("s.json"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->triangleCount(), 2u);
+  EXPECT_LT(glm::length(scene->boundsW().min - vec3(0, 0, 0)), 1e-5f);
+  EXPECT_LT(glm::length(scene->boundsW().max - vec3(10, 2, 0)), 1e-5f);
+}
+
+TEST_F(SceneJson, LightSettingsChangeALightByName) {
+  write("inner.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+    "lights": [{"name": "lamp", "kind": "point", "position": [0, 0, 1]}]})");
+  write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "inner.json"}],
+    "lightSettings": {"lamp": {"radius": 0.25, "group": "street", "attenuation": [1, 0, 1]}}})");
+  const Result<Scene> scene = loadScene(path("s.json"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->lights[0].radius, 0.25f);
+  EXPECT_EQ(scene->lights[0].group, "street");
+  EXPECT_EQ(scene->lights[0].attenuation, vec3(1, 0, 1));
+}
+
+TEST_F(SceneJson, AnglesAreDegreesAndTheFirstCameraIsTheJsons) {
+  write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+    "lights": [{"kind": "spot", "position": [0, 4, 0], "direction": [0, -1, 0],
+                "innerCone": 30, "outerCone": 60}],
+    "cameras": [{"name": "c", "position": [0, 0, 5], "target": [0, 0, 0], "fovY": 90}]})");
+  const Result<Scene> scene = loadScene(path("s.json"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_NEAR(scene->lights[0].outerCone, glm::pi<float>() / 3.f, 1e-6f);
+  EXPECT_LT(glm::length(placeLights(*scene)[0].directionW - vec3(0, -1, 0)), 1e-5f);
+  EXPECT_EQ(scene->cameras[0].name, "c");
+  EXPECT_NEAR(scene->cameras[0].fovY, glm::half_pi<float>(), 1e-6f);
+}
+
+TEST_F(SceneJson, AllFaultsAreReportedAtOnceWithLineAndPlace) {
+  const std::string faults = faultsOf(R"({
+    "lucerna": "scene/1",
+    "include": [{"file": "tri.obj"}],
+    "materials": {"paintt": {}, "paint": {"shinyness": 3}},
+    "lights": [
+      {"kind": "pointy"},
+      {"kind": "point"},
+      {"kind": "point", "position": [0, 0], "intensity": -1}
+    ],
+    "exposure": "bright"
+  })");
+  EXPECT_THAT(faults, HasSubstr("s.json:4: /materials/paintt: the scene has no material 'paintt' "
+                                "(did you mean 'paint'?)"));
+  EXPECT_THAT(faults, HasSubstr("/materials/paint/shinyness: unknown key 'shinyness' (did you "
+                                "mean 'shininess'?)"));
+  EXPECT_THAT(faults, HasSubstr("s.json:6: /lights/0/kind: found \"pointy\", wanted one of "
+                                "directional, point, spot (did you mean 'point'?)"));
+  EXPECT_THAT(faults, HasSubstr("s.json:7: /lights/1: found no \"position\""));
+  EXPECT_THAT(faults, HasSubstr("s.json:8: /lights/2/position: found [0,0], wanted a list of 3"));
+  EXPECT_THAT(faults, HasSubstr("/lights/2/intensity: found -1, wanted a number of at least 0"));
+  EXPECT_THAT(faults, HasSubstr("s.json:10: /exposure: found \"bright\", wanted a number"));
+}
+
+TEST_F(SceneJson, AFormatThatIsMissingOrUnknownIsRefused) {
+  EXPECT_THAT(faultsOf("{}"), HasSubstr("found no \"lucerna\""));
+  EXPECT_THAT(faultsOf(R"({"lucerna": "scene/9"})"), HasSubstr("wanted \"scene/1\""));
+  EXPECT_THAT(faultsOf("[1, 2]"), HasSubstr("wanted an object"));
+  EXPECT_THAT(faultsOf("{\n\"lucerna\": }"), AllOf(HasSubstr("is no JSON"), HasSubstr("line 2")));
+}
+
+TEST_F(SceneJson, ACircleOfIncludesIsRefused) {
+  write("a.json", R"({"lucerna": "scene/1", "include": [{"file": "b.json"}]})");
+  write("b.json", R"({"lucerna": "scene/1", "include": [{"file": "a.json"}]})");
+  const Result<Scene> scene = loadScene(path("a.json"));
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, HasSubstr("includes itself (a.json -> b.json -> a.json)"));
+}
+
+TEST_F(SceneJson, ABombOfIncludesIsRefused) {
+  for (int i = 0; i < 20; ++i) {
+    const std::string next = fmt::format(R"({{"file": "{}.json"}})", i + 1);
+    write(fmt::format("{}.json", i),
+          fmt::format(R"({{"lucerna": "scene/1", "include": [{}, {}]}})", next, next));
+  }
+  write("20.json", R"({"lucerna": "scene/1"})");
+  const Result<Scene> scene = loadScene(path("0.json"));
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, HasSubstr("more than 1000 scenes"));
+}
+
+TEST_F(SceneJson, AMissingBackgroundPictureIsAFault) {
+  EXPECT_THAT(faultsOf(R"({"lucerna": "scene/1", "background": {"image": "sky.png"}})"),
+              AllOf(HasSubstr("/background/image"), HasSubstr("sky.png")));
+}
+
+TEST_F(SceneJson, TheExampleOfTheDocumentationIsGood) {
+  const Result<std::string> page =
+      readText(fs::path(LUCERNA_SOURCE_DIR) / "docs/user/scene-json.md");
+  ASSERT_TRUE(page);
+  const std::size_t start = page->find("```json\n") + 8;
+  write("s.json", page->substr(start, page->find("```", start) - start));
+  for (const char* name : {"hall", "car"}) {
+    write(fmt::format("{}.obj", name),
+          "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
+          "usemtl glass\nf 1 2 3\nusemtl paint\nf 1 2 4\n"
+          "usemtl steel\nf 2 3 4\n");
+  }
+  write("m.mtl", "newmtl glass\nnewmtl paint\nnewmtl steel\n");
+  const Result<Scene> scene = loadScene(path("s.json"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->lights.size(), 3u);
+  EXPECT_EQ(scene->cameras[0].name, "entrance");
+  EXPECT_EQ(scene->background.color, vec3(0.3f, 0.45f, 0.7f));
+}
+
+TEST(LineOf, FindsValuesAndKeysWithEscapes) {
+  const std::string text = "{\n\"a/b\": [\n1,\n{\"c\": \"}]\"},\n3]\n}";
+  EXPECT_EQ(lineOf(text, ""), 1);
+  EXPECT_EQ(lineOf(text, "/a~1b"), 2);
+  EXPECT_EQ(lineOf(text, "/a~1b/0"), 3);
+  EXPECT_EQ(lineOf(text, "/a~1b/1/c"), 4);
+  EXPECT_EQ(lineOf(text, "/a~1b/2"), 5);
+}
+
+}  // namespace
+}  // namespace lucerna::scene
