@@ -5,6 +5,7 @@
 
 #include "core/text.hpp"
 #include "scene/builtin/atrium.hpp"
+#include "scene/builtin/nightcity.hpp"
 #include "scene/builtin/options.hpp"
 
 namespace lucerna::scene {
@@ -24,13 +25,24 @@ Result<Scene> readAtrium(builtin::OptionReader& reader) {
   return builtin::makeAtrium(options);
 }
 
+Result<Scene> readNightCity(builtin::OptionReader& reader) {
+  builtin::NightCityOptions options;
+  reader.integer("blocks", options.blocks, 6, 64);
+  reader.number("rotate", options.rotate, -360, 360);
+  reader.number("jitter", options.jitter, 0, 1);
+  reader.pair("sun", options.sun, vec2(0, -360), vec2(90, 360));
+  reader.integer("seed", options.seed, 0, ~0u);
+  LUCERNA_TRY_VOID(reader.finish());
+  return builtin::makeNightCity(options);
+}
+
 struct Builtin {
   std::string name;
   Result<Scene> (*read)(builtin::OptionReader& reader);
 };
 
 const std::vector<Builtin>& builtins() {
-  static const std::vector<Builtin> all{{"atrium", readAtrium}};
+  static const std::vector<Builtin> all{{"atrium", readAtrium}, {"nightcity", readNightCity}};
   return all;
 }
 
