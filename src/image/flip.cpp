@@ -43,14 +43,27 @@ inline float toneMapped(float x) {
   return clampedTo((k0 * x * x + k1 * x) / (k3 * x * x + k4 * x + k5), 1.f);
 }
 
+// Channel c of a row of interleaved pixels.
+void deinterleave(const float* row, int channel, int width, float* plane) {
+  for (int x = 0; x < width; ++x) plane[x] = row[3 * x + channel];
+}
+
+LUCERNA_WIDE_VECTORS
+void decodeSrgb(float* values, int count) {
+  for (int i = 0; i < count; ++i) values[i] = decodedSrgb(values[i]);
+}
+
+LUCERNA_WIDE_VECTORS
+void toneMap(float* values, int count, float scale) {
+  for (int i = 0; i < count; ++i)
+    values[i] = toneMapped(scale * clampedTo(values[i], kLargestRadiance));
+}
+
 flip::RowSource srgbRows(const Image& image) {
   return [&image](int y, float* const* planes) {
-    const float* row = image.pixel<float>(0, y);
     for (int c = 0; c < 3; ++c) {
-      float* plane = planes[c];
-      const int width = image.width();
-      for (int x = 0; x < width; ++x) plane[x] = row[3 * x + c];
-      for (int x = 0; x < width; ++x) plane[x] = decodedSrgb(plane[x]);
+      deinterleave(image.pixel<float>(0, y), c, image.width(), planes[c]);
+      decodeSrgb(planes[c], image.width());
     }
   };
 }
@@ -58,13 +71,9 @@ flip::RowSource srgbRows(const Image& image) {
 flip::RowSource toneMappedRows(const Image& image, float exposure) {
   const float scale = std::exp2(exposure);
   return [&image, scale](int y, float* const* planes) {
-    const float* row = image.pixel<float>(0, y);
     for (int c = 0; c < 3; ++c) {
-      float* plane = planes[c];
-      const int width = image.width();
-      for (int x = 0; x < width; ++x) plane[x] = row[3 * x + c];
-      for (int x = 0; x < width; ++x)
-        plane[x] = toneMapped(scale * clampedTo(plane[x], kLargestRadiance));
+      deinterleave(image.pixel<float>(0, y), c, image.width(), planes[c]);
+      toneMap(planes[c], image.width(), scale);
     }
   };
 }

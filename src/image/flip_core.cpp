@@ -11,15 +11,6 @@
 #include "image/flip_filters.hpp"
 #include "image/vector_math.hpp"
 
-// Compiles a function twice and picks the wider vectors where the machine has them. Both give the
-// same bits: contraction of products and sums is off.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
-#define LUCERNA_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
-#else
-#define LUCERNA_WIDE_VECTORS
-#endif
-
 namespace lucerna::flip {
 namespace {
 

@@ -6,6 +6,16 @@
 #include <bit>
 #include <cstdint>
 
+// Compiles a function twice and picks the wider vectors where the machine has them. Both give the
+// same bits, because the build keeps products and sums apart. (The sanitizers are not up yet when
+// the choice is made.)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define LUCERNA_WIDE_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+#define LUCERNA_WIDE_VECTORS
+#endif
+
 namespace lucerna {
 
 // x > 0 and normal. log2(m 2^e) = e + log2(m) with m in [sqrt(1/2), sqrt(2)), by the series of
