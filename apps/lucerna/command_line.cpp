@@ -7,12 +7,6 @@
 namespace lucerna::cli {
 namespace {
 
-// The innermost subcommand that was chosen.
-const CLI::App& chosen(const CLI::App& app) {
-  const auto subcommands = app.get_subcommands();
-  return subcommands.empty() ? app : chosen(*subcommands.front());
-}
-
 std::string fullName(const CLI::App& app) {
   return app.get_parent() ? fullName(*app.get_parent()) + " " + app.get_name() : app.get_name();
 }
@@ -48,6 +42,11 @@ std::string describeExtra(const CLI::App& app, const std::string& word) {
 
 }  // namespace
 
+const CLI::App& chosenCommand(const CLI::App& app) {
+  const auto subcommands = app.get_subcommands();
+  return subcommands.empty() ? app : chosenCommand(*subcommands.front());
+}
+
 CLI::App* addCommand(CommandLine& line, CLI::App& parent, const std::string& name,
                      const std::string& help, Action action) {
   CLI::App* command = parent.add_subcommand(name, help);
@@ -69,13 +68,10 @@ CLI::Validator oneOf(std::vector<std::string> choices) {
 }
 
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& fault) {
-  const CLI::App& command = chosen(app);
-  std::string what = fault.what();
-  // CLI11 lists the words that were left over; the first is the one to talk about.
-  if (fault.get_name() == "ExtrasError") {
-    const std::vector<std::string> words = command.remaining();
-    if (!words.empty()) what = describeExtra(command, words.front());
-  }
+  const CLI::App& command = chosenCommand(app);
+  // A word that nobody took is the likely cause of whatever else is missing.
+  const std::vector<std::string> words = command.remaining();
+  const std::string what = words.empty() ? fault.what() : describeExtra(command, words.front());
   return fmt::format("{}: {}\n`{} --help` shows how it is used", fullName(command), what,
                      fullName(command));
 }

@@ -49,6 +49,9 @@ T orUsageError(const std::string& option, Result<T> result) {
   return std::move(result).value();
 }
 
+// The innermost subcommand that was chosen, or the program itself.
+const CLI::App& chosenCommand(const CLI::App& app);
+
 // The message for a command line that CLI11 refused: subcommand, what was found, did you mean.
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& fault);
 

@@ -75,8 +75,10 @@ Result<int> print(const Options& options, bool json) {
   LUCERNA_TRY(checked, checkedOrError(options));
   const graph::Plan& plan = *checked.validation.plan;
   const graph::Schedule schedule = graph::makeSchedule(plan, options.size);
-  printText(json ? graph::wiringJson(checked.pipeline, plan, schedule)
-                 : graph::printWiring(checked.pipeline, plan, schedule));
+  std::string text = json ? graph::wiringJson(checked.pipeline, plan, schedule)
+                          : graph::printWiring(checked.pipeline, plan, schedule);
+  if (!text.ends_with('\n')) text += '\n';
+  printText(text);
   return 0;
 }
 

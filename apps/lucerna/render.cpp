@@ -50,7 +50,7 @@ Result<int> render(const Options& options, bool json) {
   }
   if (!profilePath.empty()) {
     LUCERNA_TRY_VOID(profile.write(profilePath));
-    log::info("{}", profile.table());
+    log::info("mean cost of a frame\n{}", profile.table());
   }
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (json)

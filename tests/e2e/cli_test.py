@@ -59,6 +59,7 @@ class CliTest(unittest.TestCase):
         self.assert_fails(2, "'rendr'", "did you mean 'render'", arguments=["rendr"])
         self.assert_fails(2, "'--sise'", "did you mean '--size'", arguments=["render", ATRIUM, "--sise=3", "-o", "a.png"])
         self.assert_fails(2, "'lst'", "did you mean 'list'", arguments=["pass", "lst"])
+        self.assert_fails(2, "'--ouput'", "did you mean '--output'", arguments=["render", ATRIUM, "--ouput", "a.png"])
         self.assert_fails(2, "'extra'", arguments=["info", ATRIUM, "extra"])
         self.assert_fails(2, "'GBufer'", "did you mean 'GBuffer'", arguments=["pass", "show", "GBufer"])
         self.assert_fails(2, "did you mean 'deferred'", arguments=["pipeline", "check", "defered"])
@@ -87,6 +88,7 @@ class CliTest(unittest.TestCase):
 
     def test_no_words_print_the_help(self):
         self.assert_fails(2, "render", "compare", arguments=[])
+        self.assert_fails(2, "list", "show", arguments=["pass"])
 
     # Input: exit 3
 
@@ -111,7 +113,7 @@ class CliTest(unittest.TestCase):
         self.assertNotIn("terminate", run.stderr)
         self.assert_fails(5, "s.js:2: SyntaxError",
                           arguments=["pipeline", "print", self.write("s.js", "pass('Cull'\n;")])
-        self.assert_fails(5, "row 1", arguments=["pipeline", "check", self.write(
+        self.assert_fails(5, "p.json:1", "did you mean 'type'", arguments=["pipeline", "check", self.write(
             "p.json", '{"lucerna": "pipeline/1", "passes": [{"typ": "Cull"}]}')])
 
     def test_a_script_without_end_is_stopped(self):
