@@ -39,6 +39,9 @@ void setBlend(Blend blend) {
   glBlendEquation(blend == Blend::Min ? GL_MIN : blend == Blend::Max ? GL_MAX : GL_FUNC_ADD);
   switch (blend) {
     case Blend::Off:
+      // Mesa 22.3 counts a factor of dual-source blending against the number of targets also while
+      // blending is off, and refuses to draw.
+      glBlendFunc(GL_ONE, GL_ZERO);
       break;
     case Blend::Alpha:
       glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
