@@ -1,7 +1,10 @@
 // Shades objects as they are drawn, with all lights.
 //   ALPHA_TEST   discard below the material's cutoff
 //   TRANSPARENT  opacity and coloured transmittance by dual-source blending (gpu::Blend::Transmit)
-#include "render/surface.glsl"
+// variant: ALPHA_TEST=1
+// variant: TRANSPARENT=1
+#include "render/object_surface.glsl"
+#include "render/shading.glsl"
 
 layout(location = 0, index = 0) out vec4 color;
 #ifdef TRANSPARENT

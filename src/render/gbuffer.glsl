@@ -5,7 +5,7 @@
 //   material  Rgba8Uint       r type, g shininess 0..255 (Phong) or roughness, b metallic, a 0
 //   emissive  R11G11B10Float  radiance
 #include "render/normal_encoding.glsl"
-#include "render/shading.glsl"
+#include "render/surface.glsl"
 #include "render/view.glsl"
 
 uvec4 packMaterial(Surface s) {

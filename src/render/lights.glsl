@@ -50,11 +50,3 @@ bool mayLight(LightValues light, vec3 positionW, vec3 normalW) {
          squared * light.intensity.w * light.intensity.w < 1.0 &&
          -dot(toLight, light.axis.xyz) > light.attenuation.w * sqrt(squared);
 }
-
-// The first light from `index` on that may reach the surface, or the count. A loop of its own, so
-// that a group of pixels runs the costly part only as often as its busiest pixel has lights: GPUs
-// and the software rasteriser skip by looping, not by branching.
-uint nextLight(uint index, vec3 positionW, vec3 normalW) {
-  while (index < lightCount.x && !mayLight(lights[index], positionW, normalW)) ++index;
-  return index;
-}

@@ -1,30 +1,11 @@
 // What a surface sends to the eye. The one place that shades: Lighting, Forward and Transparency
 // call shade() with the same Surface, so they agree.
 #include "render/lights.glsl"
-
-// Material types, as the G-buffer stores them.
-const uint kTypeNothing = 0u;
-const uint kTypePhong = 1u;
-const uint kTypeMetallicRoughness = 2u;
-const uint kTypeCustom = 3u;
+#include "render/surface.glsl"
 
 const float kPi = 3.14159265358979;
 // Below this a point light's highlight is smaller than a pixel and D overflows.
 const float kLowestRoughness = 0.045;
-
-struct Surface {
-  uint type;
-  vec3 positionW;
-  vec3 normalW;        // unit, on the side that is seen
-  vec3 toEyeW;         // unit
-  vec3 albedo;
-  vec3 emissive;       // radiance
-  float occlusion;     // of ambient light, 1: none
-  vec3 specular;       // Phong
-  float shininess;     // Phong
-  float metallic;
-  float roughness;
-};
 
 // Radiance for unit irradiance E on a surface facing the light:
 //   Phong  (rd (n.l) + rs (v.r)^h) / pi    for n.l > 0; the division turns E into system A's IL
@@ -75,8 +56,9 @@ uniform float ambientScale = 1.0;
 
 vec3 shade(Surface s) {
   vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * s.albedo * s.occlusion;
-  for (uint i = nextLight(0u, s.positionW, s.normalW); i < lightCount.x;
-       i = nextLight(i + 1u, s.positionW, s.normalW))
-    radiance += reflectedLight(s, i);
+  // One plain loop: where pixels leave an inner loop at different lights, llvmpipe (Mesa 22.3) takes
+  // the index for equal in all of them and reads the wrong light.
+  for (uint i = 0u; i < lightCount.x; ++i)
+    if (mayLight(lights[i], s.positionW, s.normalW)) radiance += reflectedLight(s, i);
   return radiance;
 }

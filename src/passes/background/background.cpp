@@ -45,13 +45,13 @@ void Background::execute(graph::PassContext& context, const Params& params, cons
   rendering.use(program,
                 {.depthTest = true, .depthCompare = gpu::Compare::Equal, .cull = gpu::Cull::None});
   const float intensity = params.intensity * (image || cubeMap ? background.intensity : 1.f);
+  rendering.buffer("ViewBlock", ports.view->block);
   program.set("radiance", intensity * (image || cubeMap ? vec3(1.f) : background.color));
   if (image) {
     gpu::Sampler sampler{.filter = gpu::Filter::Trilinear};
     rendering.texture("image", gpuScene.textures[background.texture], sampler);
   }
   if (cubeMap) {
-    rendering.buffer("ViewBlock", ports.view->block);
     rendering.texture("cubeMap", gpuScene.backgroundCube, {.filter = gpu::Filter::Trilinear});
   }
   rendering.fullscreen();

@@ -2,6 +2,9 @@
 //   COLOR     one radiance everywhere
 //   IMAGE     a picture stretched over the output
 //   CUBE_MAP  six pictures around the eye
+// variant: COLOR=1
+// variant: IMAGE=1
+// variant: CUBE_MAP=1
 #include "render/view.glsl"
 
 uniform vec3 radiance;   // of the colour; a factor on picture and cube map

@@ -1,7 +1,8 @@
 // Stores a surface in the G-buffer instead of shading it.
 //   ALPHA_TEST  discard below the material's cutoff
+// variant: ALPHA_TEST=1
 #include "render/gbuffer.glsl"
-#include "render/surface.glsl"
+#include "render/object_surface.glsl"
 
 layout(location = 0) out vec2 normal;
 layout(location = 1) out vec4 albedo;

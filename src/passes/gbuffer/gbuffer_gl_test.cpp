@@ -78,8 +78,8 @@ TEST(GBuffer, DepthIsThatOfTheSurfaceAtThePixelsCentreAlsoOffAxis) {
   testing::expectNoDebugMessages();
 }
 
-int drawnPixels(const scene::Scene& scene, const graph::Pipeline& pipeline) {
-  const Image depths = testing::valueOf(scene, pipeline, {32, 32}, "GBuffer.depth");
+int drawnPixels(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec2 size = {32, 32}) {
+  const Image depths = testing::valueOf(scene, pipeline, size, "GBuffer.depth");
   return static_cast<int>(std::ranges::count_if(depths.as<float>(), [](float d) { return d > 0; }));
 }
 
@@ -135,9 +135,10 @@ TEST(GBuffer, AlphaTestCutsHoles) {
   scene::Scene scene = testing::sampleScene();
   std::erase_if(scene.objects, [](const scene::Object& object) { return object.material != 3; });
   const graph::Pipeline pipeline = testing::rows(kRows);
-  const int withHoles = drawnPixels(scene, pipeline);
+  const uvec2 size(320, 180);  // large enough for the texture's own texels
+  const int withHoles = drawnPixels(scene, pipeline, size);
   scene.materials[3].alphaMode = scene::AlphaMode::Opaque;
-  const int solid = drawnPixels(scene, pipeline);
+  const int solid = drawnPixels(scene, pipeline, size);
   EXPECT_GT(withHoles, solid / 4);
   EXPECT_LT(withHoles, solid * 3 / 4);
 }

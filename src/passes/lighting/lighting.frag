@@ -1,5 +1,6 @@
 // Shades one pixel of the G-buffer.
 #include "render/read_gbuffer.glsl"
+#include "render/shading.glsl"
 
 layout(location = 0) out vec4 color;
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdlib>
+
 #include "support/testing.hpp"
 
 namespace lucerna {
@@ -22,9 +25,12 @@ TEST(ShowGBuffer, ShowsEachComponentOfAKnownWall) {
   wall.shininess = 100.f;
   wall.emissive = {0.5f, 0.f, 1.f};
   using Rgb = std::array<int, 3>;
+  const auto near = [](Rgb a, Rgb b) {
+    return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1 && std::abs(a[2] - b[2]) <= 1;
+  };
   EXPECT_NEAR(shown(scene, "depth")[0], 128, 1) << "10 m at a scale of 10 m";
-  EXPECT_EQ(shown(scene, "albedo"), (Rgb{255, 188, 0}));
-  EXPECT_EQ(shown(scene, "specular"), (Rgb{0, 137, 255}));
+  EXPECT_TRUE(near(shown(scene, "albedo"), {255, 188, 0}));
+  EXPECT_TRUE(near(shown(scene, "specular"), {0, 137, 255}));
   EXPECT_EQ(shown(scene, "occlusion"), (Rgb{255, 255, 255}));
   EXPECT_EQ(shown(scene, "shininess"), (Rgb{100, 100, 100}));
   EXPECT_EQ(shown(scene, "metallic"), (Rgb{0, 0, 0}));
