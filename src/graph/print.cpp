@@ -200,7 +200,10 @@ std::vector<Wire> wiresOf(const Plan& plan, const Schedule& schedule) {
   for (std::size_t s = 0; s < schedule.steps.size(); ++s) {
     const Step& step = schedule.steps[s];
     if (step.kind == Step::Kind::Copy)
-      wires.push_back({.from = writerOf(plan, schedule, step.from), .to = s, .label = "copy"});
+      wires.push_back({.from = writerOf(plan, schedule, step.from),
+                       .to = s,
+                       .version = step.from,
+                       .label = "copy"});
     if (step.kind != Step::Kind::Pass) continue;
     const ResolvedRow& row = plan.rows[step.row];
     for (std::size_t p = 0; p < row.description.ports.size(); ++p) {
@@ -213,8 +216,10 @@ std::vector<Wire> wiresOf(const Plan& plan, const Schedule& schedule) {
         wire.resource = source.port;
       } else if (port.direction == Direction::InOut && from(step.versions[p]) < s) {
         wire.from = from(step.versions[p]);  // the copy before it
+        wire.version = step.versions[p];
       } else {
-        wire.from = writerOf(plan, schedule, versionOf(plan, schedule, source));
+        wire.version = versionOf(plan, schedule, source);
+        wire.from = writerOf(plan, schedule, wire.version);
       }
       wires.push_back(std::move(wire));
     }
@@ -222,6 +227,7 @@ std::vector<Wire> wiresOf(const Plan& plan, const Schedule& schedule) {
   if (schedule.output != kNoVersion)
     wires.push_back({.from = writerOf(plan, schedule, schedule.output),
                      .to = schedule.steps.size(),
+                     .version = schedule.output,
                      .label = plan.output.port});
   return wires;
 }

@@ -12,7 +12,8 @@ namespace lucerna::graph {
 struct Wire {
   std::size_t from = kNoVersion;  // step; kNoVersion: a resource
   std::size_t to = 0;             // step; the number of steps: the pipeline's output
-  std::string label{};            // the reader's port
+  std::size_t version = kNoVersion;
+  std::string label{};  // the reader's port
   std::string resource{};
   bool history = false;
 };

@@ -10,8 +10,8 @@ namespace lucerna::graph {
 namespace {
 
 // Pixels.
-constexpr int kMargin = 24, kTitle = 56, kWireSpace = 190, kBoxWidth = 300, kPortHeight = 18;
-constexpr int kBoxHead = 26, kBoxGap = 22, kLaneWidth = 34, kLaneGap = 6, kLaneHead = 96;
+constexpr int kMargin = 24, kTitle = 56, kWireSpace = 220, kBoxWidth = 300, kPortHeight = 18;
+constexpr int kBoxHead = 26, kBoxGap = 22, kLaneWidth = 34, kLaneGap = 6, kLaneHead = 24;
 constexpr int kWireStep = 9, kLegendLine = 18;
 
 // Fills told apart also by people who see few colours (Okabe and Ito, 2008).
@@ -162,13 +162,14 @@ class Drawing {
           boxLeft() - 8, y + 4, escaped(wire.resource));
       return;
     }
-    const int columns = (kWireSpace - 40) / kWireStep;
-    const int x = boxLeft() - 30 -
+    const int columns = (kWireSpace - 76) / kWireStep;
+    const int x = boxLeft() - 60 -
                   static_cast<int>(wireCount_++ % static_cast<std::size_t>(columns)) * kWireStep;
     const int fromY = boxes_[wire.from].top + boxes_[wire.from].height - 6;
-    body_ += fmt::format("<path d=\"M {} {} H {} V {} H {}\" fill=\"none\" stroke=\"{}\"{}/>\n",
-                         boxLeft(), fromY, x, y, boxLeft(), wire.history ? "#d55e00" : "#888",
-                         wire.history ? " stroke-dasharray=\"3 3\"" : "");
+    body_ += fmt::format(
+        "<path d=\"M {} {} H {} V {} H {}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{}/>\n",
+        boxLeft(), fromY, x, y, boxLeft(), colorOf(wire.version),
+        wire.history ? " stroke-dasharray=\"3 3\"" : "");
   }
 
   void drawOutput() {
@@ -186,15 +187,20 @@ class Drawing {
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"#fafafa\" stroke=\"#ddd\"/>\n"
         "<text x=\"{}\" y=\"{}\" text-anchor=\"middle\" fill=\"#555\">{}</text>\n",
         x, top, kLaneWidth, bottom_ - top, x + kLaneWidth / 2, top - 8, t);
-    for (const std::size_t v : texture.versions) drawLife(x, v);
+    for (std::size_t i = 0; i < texture.versions.size(); ++i)
+      drawLife(x, texture.versions[i],
+               i + 1 < texture.versions.size() ? texture.versions[i + 1] : kNoVersion);
   }
 
-  void drawLife(int x, std::size_t v) {
+  // A version that the next one updates in place ends where that begins.
+  void drawLife(int x, std::size_t v, std::size_t next) {
     const Version& version = schedule_.versions[v];
     const bool survives = version.lastStep >= schedule_.steps.size();
     const Box& last = boxes_[survives ? boxes_.size() - 1 : version.lastStep];
     const int top = boxes_[version.firstStep].top;
-    const int bottom = survives ? bottom_ : last.top + last.height;
+    int bottom = survives ? bottom_ : last.top + last.height;
+    if (next != kNoVersion)
+      bottom = std::min(bottom, boxes_[schedule_.versions[next].firstStep].top);
     const int inset = version.standIn || schedule_.textures[version.physical].history ? 4 : 2;
     body_ += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\" fill=\"{}\" "

@@ -97,7 +97,7 @@ TEST_F(Validate, UnknownPort) {
   EXPECT_THAT(reader.remedy, HasSubstr("did you mean 'normal'"));
   const Fault port = only(check({"GBuffer", FakeRow("Light").reads("normal", "GBuffer.nrmal")}),
                           FaultKind::UnknownPort);
-  EXPECT_THAT(port.remedy, HasSubstr("did you mean 'normal'"));
+  EXPECT_THAT(port.remedy, HasSubstr("did you mean 'GBuffer.normal'"));
   const Fault row = only(check({"GBuffer", FakeRow("Light").reads("normal", "GBufer.normal")}),
                          FaultKind::UnknownPort);
   EXPECT_THAT(row.remedy, HasSubstr("did you mean 'GBuffer'"));
@@ -301,7 +301,7 @@ TEST_F(Validate, BadOutput) {
   EXPECT_THAT(only(check({"GBuffer", "Light"}, "Lihgt.color"), FaultKind::BadOutput).remedy,
               HasSubstr("did you mean 'Light'"));
   EXPECT_THAT(only(check({"GBuffer", "Light"}, "Light.colour"), FaultKind::BadOutput).remedy,
-              HasSubstr("did you mean 'color'"));
+              HasSubstr("did you mean 'Light.color'"));
   only(check({"GBuffer"}), FaultKind::BadOutput);
   only(check({"MakeLists"}, "MakeLists.lists"), FaultKind::BadOutput);
   only(check({"GBuffer", "Light"}, "", {"Ligth.color"}), FaultKind::BadOutput);

@@ -237,13 +237,14 @@ Problem Wiring::unknownOutput(std::size_t row, const std::string& port) const {
   std::vector<std::string> names;
   for (const PortDescription& p : descriptions_[row]->ports)
     if (p.direction != Direction::In) names.push_back(p.name);
-  const std::string near = closest(port, names);
+  const std::string near = names.size() == 1 ? names[0] : closest(port, names);
   return {
       .kind = FaultKind::UnknownPort,
       .found = fmt::format("'{}.{}', and '{}' has no such output", nameOf(row), port, nameOf(row)),
       .wanted = names.empty() ? "a pass with outputs"
                               : fmt::format("one of its outputs: {}", join(names)),
-      .remedy = near.empty() ? "name an output" : fmt::format("did you mean '{}'?", near)};
+      .remedy = near.empty() ? "name an output"
+                             : fmt::format("did you mean '{}.{}'?", nameOf(row), near)};
 }
 
 const PortDescription* Wiring::outputOf(std::size_t row, std::string_view port) const {
