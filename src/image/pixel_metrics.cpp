@@ -35,20 +35,32 @@ double meanSquare(const Image& reference, const Image& test, const Image* mask) 
   return components > 0 ? sum / components : 0;
 }
 
-// Rec. 709.
-void lumaRow(const Image& image, int y, float* luma) {
+// Rec. 709, less 0.5: variances do not change, and near zero they lose less to rounding.
+void centredLumaRow(const Image& image, int y, float* luma) {
   const float* rgb = image.pixel<float>(0, y);
   for (int x = 0; x < image.width(); ++x)
-    luma[x] = 0.2126f * rgb[3 * x] + 0.7152f * rgb[3 * x + 1] + 0.0722f * rgb[3 * x + 2];
+    luma[x] = 0.2126f * rgb[3 * x] + 0.7152f * rgb[3 * x + 1] + 0.0722f * rgb[3 * x + 2] - 0.5f;
 }
 
-// Local moments of luma: E r, E t, E r^2, E t^2, E r t.
+// Local moments of centred luma: E r, E t, E r^2, E t^2, E r t.
 constexpr int kMoments = 5;
 
 float similarity(const float* m) {
   const float varR = m[2] - m[0] * m[0], varT = m[3] - m[1] * m[1], cov = m[4] - m[0] * m[1];
-  return (2 * m[0] * m[1] + kC1) * (2 * cov + kC2) /
-         ((m[0] * m[0] + m[1] * m[1] + kC1) * (varR + varT + kC2));
+  const float r = m[0] + 0.5f, t = m[1] + 0.5f;
+  return (2 * r * t + kC1) * (2 * cov + kC2) / ((r * r + t * t + kC1) * (varR + varT + kC2));
+}
+
+// Sums to 1 exactly in single precision, or a plain picture would have a variance.
+Kernel window() {
+  Kernel kernel = gaussian(kWindowSigma, kWindowRadius);
+  double sum = 0;
+  for (const float tap : kernel.taps) sum += tap;
+  kernel = scaled(kernel, static_cast<float>(1 / sum));
+  sum = 0;
+  for (const float tap : kernel.taps) sum += tap;
+  kernel.taps[kWindowRadius] += static_cast<float>(1 - sum);
+  return kernel;
 }
 
 class SsimBand {
@@ -60,10 +72,6 @@ class SsimBand {
         rows_(rows),
         along_(static_cast<std::size_t>(rows) * kMoments * stride_),
         across_(static_cast<std::size_t>(kMoments) * stride_) {
-    kernel_ = gaussian(kWindowSigma, kWindowRadius);
-    float sum = 0;
-    for (const float tap : kernel_.taps) sum += tap;
-    kernel_ = scaled(kernel_, 1 / sum);
     for (int row = firstRow; row < firstRow + rows; ++row) filterAlong(reference, test, row);
   }
 
@@ -91,8 +99,8 @@ class SsimBand {
 
   void filterAlong(const Image& reference, const Image& test, int row) {
     PaddedRow r(width_, kWindowRadius), t(width_, kWindowRadius), product(width_, kWindowRadius);
-    lumaRow(reference, row, r.data());
-    lumaRow(test, row, t.data());
+    centredLumaRow(reference, row, r.data());
+    centredLumaRow(test, row, t.data());
     r.extend();
     t.extend();
     convolveAlong(r, kernel_, width_, along(0, row));
@@ -107,7 +115,7 @@ class SsimBand {
   }
 
   int width_, stride_, firstRow_, rows_;
-  Kernel kernel_;
+  Kernel kernel_ = window();
   std::vector<float> along_, across_;
 };
 

@@ -2,6 +2,7 @@
 // everything with a destructor outside themselves.
 #include <png.h>
 
+#include <bit>
 #include <csetjmp>
 #include <cstring>
 
@@ -75,15 +76,19 @@ std::vector<png_bytep> rowPointers(const Image& image) {
   return rows;
 }
 
-bool hasTransparency(ByteView bytes) {
-  std::size_t at = kHeaderEnd;
-  while (at + 8 <= bytes.size()) {
-    const ByteView type = bytes.subspan(at + 4);
-    if (startsWith(type, "tRNS")) return true;
-    if (startsWith(type, "IDAT")) return false;
-    at += 12 + static_cast<std::size_t>(big32(bytes, at));
+// What the chunks before the pixels say.
+struct EarlyChunks {
+  bool transparency = false, pixels = false;
+};
+
+EarlyChunks earlyChunks(ByteView bytes) {
+  EarlyChunks found;
+  for (std::size_t at = kHeaderEnd; at + 8 <= bytes.size() && !found.pixels;
+       at += 12 + static_cast<std::size_t>(big32(bytes, at))) {
+    if (startsWith(bytes.subspan(at + 4), "tRNS")) found.transparency = true;
+    if (startsWith(bytes.subspan(at + 4), "IDAT")) found.pixels = true;
   }
-  return false;
+  return found;
 }
 
 bool recognises(ByteView bytes) {
@@ -102,10 +107,14 @@ Result<Header> readHeader(ByteView bytes, const std::string& name) {
   const bool palette = colour == 3, rgb = (colour & 2) != 0, alpha = (colour & 4) != 0;
   if (colour > 6 || colour == 1 || colour == 5)
     return corrupt(name, "PNG", fmt::format("colour type {} does not exist", colour));
+  if (!std::has_single_bit(bits) || bits > 16)
+    return corrupt(name, "PNG", fmt::format("a bit depth of {} does not exist", bits));
+  const EarlyChunks chunks = earlyChunks(bytes);
+  if (!chunks.pixels) return corrupt(name, "PNG", "it has no pixels (no IDAT chunk)");
   const std::uint32_t stored = palette ? 1 : (rgb ? 3 : 1) + (alpha ? 1 : 0);
   Header header;
   header.info = {"PNG", static_cast<int>(width), static_cast<int>(height),
-                 (rgb ? 3 : 1) + (alpha || hasTransparency(bytes) ? 1 : 0)};
+                 (rgb ? 3 : 1) + (alpha || chunks.transparency ? 1 : 0)};
   const std::uint64_t row = 1 + (static_cast<std::uint64_t>(width) * stored * bits + 7) / 8;
   header.leastBytes = kHeaderEnd + row * height / kDeflateRatio;
   return header;
