@@ -134,16 +134,19 @@ void addPanes(Plan& plan) {
 }
 
 // Light number i hangs over the edge of the nave or the gallery and shines across the hall, so that
-// most surfaces are reached by several.
+// most surfaces are reached by several; a third of them hang higher and shine up
+// at the ceiling.
 void addLight(Plan& plan, std::uint32_t i, const AtriumOptions& options, Random& random) {
   const float count = static_cast<float>(options.lights);
   const float side = i % 2 == 0 ? -1.f : 1.f;
   const bool high = (i / 2) % 3 == 1;
   const float z = (kEnd - 1.5f) * (2 * (static_cast<float>(i) + 0.5f) / count - 1);
-  const vec3 position(side * random.uniform(3.2f, 4.4f), high ? 11.6f : random.uniform(5.6f, 6.6f),
+  const vec3 position(side * random.uniform(3.2f, 4.4f), high ? 9.4f : random.uniform(5.6f, 6.6f),
                       z + random.uniform(-0.4f, 0.4f));
-  const vec3 target(-side * random.uniform(2.f, 7.f), high ? 6.f : 0.f,
-                    z + random.uniform(-4.f, 4.f));
+  vec3 target(-side * random.uniform(2.f, 7.f), high ? 12.f : 0.f, z + random.uniform(-4.f, 4.f));
+  // The outermost two light the end walls.
+  if (i == 0) target = {0, 6.f, -kEnd};
+  if (i + 1 == options.lights) target = {0, 6.f, kEnd};
   const bool spot = options.kind == LightKind::Spot;
 
   Node node;
@@ -159,7 +162,7 @@ void addLight(Plan& plan, std::uint32_t i, const AtriumOptions& options, Random&
   light.kind = options.kind;
   light.color = colors[color];
   // The hall stays about as bright for any number of lights.
-  light.intensity = kPi * (spot ? 5.f : 2.6f) * std::sqrt(16.f / std::max(count, 4.f));
+  light.intensity = kPi * (spot ? 7.f : 3.6f) * std::sqrt(16.f / std::max(count, 4.f));
   light.attenuation = {1.f, 0.f, 0.12f};
   light.range = 26.f;
   light.radius = 0.15f;
@@ -241,10 +244,10 @@ Scene makeAtrium(const AtriumOptions& options) {
   addAnimation(plan, options);
 
   addCamera(scene, rootIndex, "main", {1.7f, 1.8f, 19.5f}, {-0.8f, 5.4f, -10.f}, 62);
-  addCamera(scene, rootIndex, "gallery", {8.4f, 9.3f, 16.f}, {-5.f, 5.2f, -9.f}, 58);
-  addCamera(scene, rootIndex, "detail", {-4.6f, 1.9f, -1.f}, {-10.f, 1.7f, -3.2f}, 50);
+  addCamera(scene, rootIndex, "gallery", {5.6f, 9.3f, 15.6f}, {-3.2f, 5.6f, -8.f}, 60);
+  addCamera(scene, rootIndex, "detail", {6.6f, 1.8f, 14.2f}, {8.6f, 2.1f, 8.f}, 55);
   scene.background.color = {0.010f, 0.018f, 0.045f};
-  scene.ambient = vec3(0.022f, 0.024f, 0.032f);
+  scene.ambient = vec3(0.040f, 0.042f, 0.055f);
   return scene;
 }
 

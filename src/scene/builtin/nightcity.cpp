@@ -11,7 +11,7 @@ namespace {
 using namespace city;
 
 // Lamps have intensity pi, as in system A; this brings a lit street to a pleasant brightness.
-constexpr float kExposure = 3.4f;
+constexpr float kExposure = 3.9f;
 
 void addSun(Scene& scene, vec2 degrees) {
   const float elevation = glm::radians(degrees.x), azimuth = glm::radians(degrees.y);
@@ -37,11 +37,11 @@ void addCameras(City& city) {
     city.scene.cameras.back().near = 0.2f;
     city.scene.cameras.back().far = std::numeric_limits<float>::infinity();
   };
-  camera("street", {4.6f, 1.7f, -172.f}, {-1.4f, 6.2f, -234.f}, 60);
+  camera("street", {4.2f, 1.7f, -184.f}, {-1.2f, 6.6f, -246.f}, 60);
   camera("highway", {-70.f, kHighwayTop + 2.2f, kHighwayZ + 4.f},
          {60.f, kHighwayTop + 3.f, kHighwayZ - 3.f}, 55);
-  camera("tunnel", {-3.f, 1.8f, kTunnelFrom + 26}, {1.f, 3.6f, kTunnelFrom - 60}, 55);
-  camera("aerial", {70.f, 95.f, 10.f}, {-25.f, 0.f, -260.f}, 55);
+  camera("tunnel", {-3.6f, 1.8f, kTunnelFrom + 45}, {0.6f, 4.6f, kTunnelFrom - 60}, 45);
+  camera("aerial", {120.f, 210.f, 90.f}, {-30.f, 0.f, -270.f}, 52);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ void addTunnelLamps(std::vector<Lamp>& lamps) {
     lamp.position = {0, kTunnelSpring + kTunnelRise - 0.35f,
                      glm::mix(kTunnelFrom, kTunnelTo, share)};
     lamp.tint = kSodium;
-    lamp.quadratic = 0.06f;
+    lamp.quadratic = 0.05f;
     lamp.ceiling = true;
     lamps.push_back(lamp);
   }
@@ -85,6 +85,7 @@ void addHighwayLamps(std::vector<Lamp>& lamps) {
                      kHighwayZ + static_cast<float>(side) * (kHighwayHalf - 0.17f)};
     lamp.angle = side > 0 ? kPi : 0.f;
     lamp.tint = kCold;
+    lamp.quadratic = 0.06f;
     lamps.push_back(lamp);
   }
 }

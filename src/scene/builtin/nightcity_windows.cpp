@@ -22,11 +22,11 @@ vec3 windowLight(vec2 in, std::uint32_t hash) {
                                         vec3(1, 0.66f, 0.32f), vec3(0.86f, 0.93f, 1),
                                         vec3(1, 0.88f, 0.70f)};
   vec3 light = kLights[hash % 5] * (0.55f + 0.45f * static_cast<float>(hash >> 8 & 255) / 255.f);
-  // Brighter towards the lamp at the ceiling; curtains at the sides; a blind in some.
+  // Brighter towards the lamp at the ceiling; dark behind curtains, and behind a blind in some.
   light *= 1.f - 0.35f * in.y;
-  const float curtain = 0.05f + 0.22f * static_cast<float>(hash >> 16 & 255) / 255.f;
-  if (std::min(in.x, 1 - in.x) < curtain) light *= vec3(0.62f, 0.50f, 0.42f);
-  if ((hash >> 24 & 3) == 0 && in.y < 0.45f) light *= 0.6f;
+  const float curtain = 0.02f + 0.2f * static_cast<float>(hash >> 16 & 255) / 255.f;
+  if (std::min(in.x, 1 - in.x) < curtain) return vec3(0);
+  if ((hash >> 24 & 3) == 0 && in.y < 0.45f) return vec3(0);
   return light;
 }
 
@@ -47,29 +47,36 @@ bool isGlass(vec2 in) {
   return in.x > 0 && in.y > 0 && in.x < 1 && in.y < 1;
 }
 
-// The share of a facade's texels that would shine if every window were lit.
-double glassShare(Style style) {
-  constexpr int kWidth = kFacadeWidth / kColumns, kHeight = kFacadeHeight / kRows;
-  int lit = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
-      const vec2 in = inWindow((vec2(x, y) + 0.5f) / vec2(kWidth, kHeight), facade(style));
-      lit += isGlass(in) && windowLight(in, 0) != vec3(0);
-    }
-  return static_cast<double>(lit) / (kWidth * kHeight);
+std::uint32_t windowHash(int cell, std::uint32_t seed) {
+  return latticeHash(static_cast<std::uint32_t>(cell % kColumns),
+                     static_cast<std::uint32_t>(cell / kColumns), seed + 5);
 }
 
-std::shared_ptr<const Image> paintWindows(Style style, int litCount, std::uint32_t seed) {
-  const std::vector<int> order = lightingOrder(seed);
-  std::vector<bool> lit(kCells, false);
-  for (int i = 0; i < litCount; ++i) lit[static_cast<std::size_t>(order[i])] = true;
+// For each window, the share of the whole facade that shines when it is lit.
+std::vector<double> windowShares(Style style, std::uint32_t seed) {
+  constexpr int kWidth = kFacadeWidth / kColumns / 2, kHeight = kFacadeHeight / kRows / 2;
+  std::vector<double> shares(kCells);
+  for (int cell = 0; cell < kCells; ++cell) {
+    int lit = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const vec2 in = inWindow((vec2(x, y) + 0.5f) / vec2(kWidth, kHeight), facade(style));
+        lit += isGlass(in) && windowLight(in, windowHash(cell, seed)) != vec3(0);
+      }
+    shares[static_cast<std::size_t>(cell)] = static_cast<double>(lit) / (kWidth * kHeight * kCells);
+  }
+  return shares;
+}
+
+std::shared_ptr<const Image> paintWindows(Style style, const std::vector<bool>& lit,
+                                          std::uint32_t seed) {
   const Facade& f = facade(style);
   return paint(kFacadeWidth, kFacadeHeight, [&](vec2 p) {
     const vec2 cell = p * vec2(kColumns, kRows);
-    const auto x = static_cast<std::uint32_t>(cell.x), y = static_cast<std::uint32_t>(cell.y);
+    const int index = static_cast<int>(cell.y) * kColumns + static_cast<int>(cell.x);
     const vec2 in = inWindow(cell, f);
-    if (!isGlass(in) || !lit[y * kColumns + x]) return vec4(0, 0, 0, 1);
-    return vec4(windowLight(in, latticeHash(x, y, seed + 5)), 1);
+    if (!isGlass(in) || !lit[static_cast<std::size_t>(index)]) return vec4(0, 0, 0, 1);
+    return vec4(windowLight(in, windowHash(index, seed)), 1);
   });
 }
 
@@ -159,26 +166,32 @@ void lightWindows(Scene& scene, const Materials& m, std::uint32_t seed) {
     const std::uint32_t texture = scene.materials[material].emissiveTexture.texture;
     wanted -= areas[material] * litShare(*scene.textures[texture].image);
   }
-  // What the windows of each style would give if all were lit.
+  // What the windows of each style would give if all were lit, m^2.
+  std::array<std::vector<double>, kStyles> windows;
   std::array<double, kStyles> full{};
   double weighted = 0;
   for (std::size_t i = 0; i < kStyles; ++i) {
-    full[i] = areas[m.facades[i]] * glassShare(static_cast<Style>(i));
+    windows[i] = windowShares(static_cast<Style>(i), seed + static_cast<std::uint32_t>(i));
+    for (double& window : windows[i]) full[i] += window *= areas[m.facades[i]];
     weighted += full[i] * facade(static_cast<Style>(i)).weight;
   }
   const double share = std::max(0.0, wanted / std::max(weighted, 1.0));
-  double error = 0;  // m^2 that the whole windows so far lack
+  double lacking = 0;  // m^2, carried from style to style
   for (std::size_t i = 0; i < kStyles; ++i) {
     const auto style = static_cast<Style>(i);
-    const double ideal = full[i] * share * facade(style).weight + error;
-    const double perWindow = std::max(full[i] / kCells, 1e-6);
-    const int count = std::clamp(static_cast<int>(std::lround(ideal / perWindow)), 0, kCells);
-    error = ideal - count * perWindow;
+    const std::uint32_t styleSeed = seed + static_cast<std::uint32_t>(i);
+    lacking += full[i] * share * facade(style).weight;
+    std::vector<bool> lit(kCells, false);
+    for (const int window : lightingOrder(styleSeed)) {
+      const double gain = windows[i][static_cast<std::size_t>(window)];
+      if (gain > 2 * lacking) break;  // nearer without it
+      lit[static_cast<std::size_t>(window)] = true;
+      lacking -= gain;
+    }
     Material& material = scene.materials[m.facades[i]];
     material.emissive = kWindowRadiance;
     material.emissiveTexture =
-        slot(addTexture(scene, material.name + " lights",
-                        paintWindows(style, count, seed + static_cast<std::uint32_t>(i))));
+        slot(addTexture(scene, material.name + " lights", paintWindows(style, lit, styleSeed)));
   }
 }
 
