@@ -245,7 +245,7 @@ Scene makeAtrium(const AtriumOptions& options) {
 
   addCamera(scene, rootIndex, "main", {1.7f, 1.8f, 19.5f}, {-0.8f, 5.4f, -10.f}, 62);
   addCamera(scene, rootIndex, "gallery", {5.6f, 9.3f, 15.6f}, {-3.2f, 5.6f, -8.f}, 60);
-  addCamera(scene, rootIndex, "detail", {6.6f, 1.8f, 14.2f}, {8.6f, 2.1f, 8.f}, 55);
+  addCamera(scene, rootIndex, "detail", {7.3f, 1.8f, 13.8f}, {8.9f, 2.1f, 8.f}, 52);
   scene.background.color = {0.010f, 0.018f, 0.045f};
   scene.ambient = vec3(0.040f, 0.042f, 0.055f);
   return scene;

@@ -41,7 +41,7 @@ void addCameras(City& city) {
   camera("highway", {-70.f, kHighwayTop + 2.2f, kHighwayZ + 4.f},
          {60.f, kHighwayTop + 3.f, kHighwayZ - 3.f}, 55);
   camera("tunnel", {-3.6f, 1.8f, kTunnelFrom + 45}, {0.6f, 4.6f, kTunnelFrom - 60}, 45);
-  camera("aerial", {120.f, 210.f, 90.f}, {-30.f, 0.f, -270.f}, 52);
+  camera("aerial", {75.f, 140.f, 70.f}, {-15.f, 62.f, -230.f}, 55);
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ Scene makeNightCity(const NightCityOptions& options) {
   addCameras(city);
 
   scene.exposure = kExposure;
-  scene.ambient = vec3(0.0045f, 0.0048f, 0.0070f);
+  scene.ambient = vec3(0.0052f, 0.0056f, 0.0082f);
   addSky(scene, options.sun.has_value(), options.seed);
   scene.background.intensity = std::exp2(-kExposure);
   if (options.sun) {

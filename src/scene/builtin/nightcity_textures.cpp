@@ -50,7 +50,7 @@ vec4 facadeColor(vec2 p, Style style, std::uint32_t seed) {
 }
 
 vec4 asphalt(vec2 p, std::uint32_t seed) {
-  return grey(0.27f + 0.05f * fractalNoise(p, 8, 3, seed) + 0.04f * noise(p, 128, seed + 9));
+  return grey(0.21f + 0.05f * fractalNoise(p, 8, 3, seed) + 0.04f * noise(p, 128, seed + 9));
 }
 
 // 20 m across, 12 m along: parking lines, lane dashes, a double line in the middle.
@@ -78,7 +78,7 @@ vec4 sidewalkColor(vec2 p, std::uint32_t seed) {
 
 vec4 grassColor(vec2 p, std::uint32_t seed) {
   const float n = fractalNoise(p, 8, 4, seed);
-  return vec4(glm::mix(vec3(0.16f, 0.22f, 0.12f), vec3(0.32f, 0.34f, 0.22f), n), 1);
+  return vec4(glm::mix(vec3(0.20f, 0.26f, 0.15f), vec3(0.40f, 0.42f, 0.28f), n), 1);
 }
 
 vec4 concreteColor(vec2 p, std::uint32_t seed) {
