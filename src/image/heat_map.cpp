@@ -7,17 +7,18 @@
 namespace lucerna {
 namespace {
 
-// Stops at even steps of the error whose CIE lightness grows from 0 to 97 about evenly; the hue
-// turns from violet over red to yellow so that equal lightness is never needed to tell two apart.
-constexpr std::array<std::array<float, 3>, 9> kStops = {{{0, 0, 3},
-                                                         {28, 16, 68},
-                                                         {79, 18, 123},
-                                                         {129, 37, 129},
-                                                         {181, 54, 122},
-                                                         {229, 80, 100},
-                                                         {251, 135, 97},
-                                                         {254, 194, 135},
-                                                         {252, 253, 191}}};
+// Stops at even steps of the error. CIE lightness grows by 12 from each to the next; the hue turns
+// from blue (298 degrees in CIELab) over red to yellow (102) at nearly the greatest chroma there
+// is.
+constexpr std::array<std::array<float, 3>, 9> kStops = {{{0, 0, 0},
+                                                         {10, 24, 86},
+                                                         {66, 32, 141},
+                                                         {134, 42, 154},
+                                                         {196, 54, 155},
+                                                         {247, 85, 137},
+                                                         {249, 150, 133},
+                                                         {252, 201, 118},
+                                                         {255, 246, 173}}};
 
 }  // namespace
 
