@@ -8,22 +8,23 @@ namespace {
 
 constexpr int kSize = 256;
 
-// The direction of a place on a face of an OpenGL cube map (specification, table 8.19).
+// The direction of a place on a face: each is what a camera at the origin sees along its axis,
+// upright; up and down are seen by tilting the head from -z.
 vec3 faceDirection(int face, vec2 p) {
   const float s = 2 * p.x - 1, t = 2 * p.y - 1;
   switch (face) {
     case 0:
-      return glm::normalize(vec3(1, -t, -s));
+      return glm::normalize(vec3(1, -t, s));
     case 1:
-      return glm::normalize(vec3(-1, -t, s));
+      return glm::normalize(vec3(-1, -t, -s));
     case 2:
-      return glm::normalize(vec3(s, 1, t));
+      return glm::normalize(vec3(s, 1, -t));
     case 3:
-      return glm::normalize(vec3(s, -1, -t));
+      return glm::normalize(vec3(s, -1, t));
     case 4:
-      return glm::normalize(vec3(s, -t, 1));
+      return glm::normalize(vec3(-s, -t, 1));
     default:
-      return glm::normalize(vec3(-s, -t, -1));
+      return glm::normalize(vec3(s, -t, -1));
   }
 }
 
