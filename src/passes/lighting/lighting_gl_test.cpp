@@ -107,8 +107,8 @@ TEST_P(Shading, ALightBehindTheSurfaceLeavesNoHighlight) {
                       {0.9f, 0, -4});
     testing::addLight(scene, lightOf(scene::LightKind::Point, 100.f), {1, 0, -3.5f}, {0, 0, -3});
     updateTransforms(scene);
-    for (const float value : converted(radiance(scene), ComponentType::F32, 3).as<float>())
-      ASSERT_EQ(value, 0.f);
+    const Image values = converted(radiance(scene), ComponentType::F32, 3);
+    for (const float value : values.as<float>()) ASSERT_EQ(value, 0.f);
   }
 }
 
