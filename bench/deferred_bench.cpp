@@ -1,15 +1,13 @@
 // Deferred against forward shading: the same scene, lights and shading code, frames taken in turn.
 //
-// builtin:atrium with 4, 16 and 64 lights and no transparent objects, 640x360. Prints one table: the
-// median time of a frame by the CPU clock with the GPU's work finished, and how alike the two tone
-// mapped pictures are. Exits with 1 if they differ by more than 45 dB PSNR allows.
+// builtin:atrium with 4, 16 and 64 lights and no transparent objects, 640x360. Prints one table:
+// the median time of a frame by the CPU clock with the GPU's work finished, and how alike the two
+// tone mapped pictures are. Exits with 1 if they differ by more than 45 dB PSNR allows.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
 #include <vector>
 
 #include "app/frame.hpp"
@@ -86,9 +84,6 @@ Status compare(int lights) {
 }  // namespace
 
 int main() {
-  std::error_code ignored;
-  const auto self = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  setenv("LUCERNA_PROGRAM", (self.parent_path() / "lucerna").c_str(), 0);
   log::setLevel(log::Level::Error);
   fmt::print("builtin:atrium, 640x360, median of {} interleaved frames\n", kFrames);
   fmt::print("{:>6} {:>12} {:>11} {:>8} {:>9} {:>15} {:>14}\n", "lights", "deferred/ms",

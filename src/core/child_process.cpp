@@ -14,8 +14,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <utility>
 #include <optional>
+#include <utility>
 
 #include "core/progress.hpp"
 
@@ -309,7 +309,10 @@ std::string describeEnd(const ChildOutput& output, const ChildLimits& limits) {
 std::filesystem::path workerProgram() {
   if (const char* named = std::getenv("LUCERNA_PROGRAM"); named && *named) return named;
   std::error_code code;
-  return std::filesystem::read_symlink("/proc/self/exe", code);
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", code);
+  // Any other program (a test, a benchmark, a user of the libraries) must not start itself as a
+  // worker, which would only start the next: it uses the lucerna beside it.
+  return self.filename() == "lucerna" ? self : self.parent_path() / "lucerna";
 }
 
 }  // namespace lucerna

@@ -38,8 +38,8 @@ ChildOutput runChild(const std::filesystem::path& program,
 // "was killed after 10 s", "crashed (signal 11)", ... for messages.
 std::string describeEnd(const ChildOutput& output, const ChildLimits& limits);
 
-// The running program, or what LUCERNA_PROGRAM names: the one that understands the hidden
-// subcommands (`lucerna --worker NAME`) that children run.
+// The program that understands the hidden subcommands (`lucerna --worker NAME`) that children run:
+// what LUCERNA_PROGRAM names, else the running program if it is lucerna, else the lucerna beside it.
 std::filesystem::path workerProgram();
 
 }  // namespace lucerna

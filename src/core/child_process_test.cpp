@@ -148,9 +148,9 @@ TEST(ChildProcess, TheSecondInterruptKills) {
       testing::KilledBySignal(SIGINT), "");
 }
 
-TEST(ChildProcess, TheWorkerIsThisProgramUnlessNamed) {
+TEST(ChildProcess, TheWorkerIsTheLucernaBesideThisProgramUnlessNamed) {
   unsetenv("LUCERNA_PROGRAM");
-  EXPECT_EQ(workerProgram().filename(), "core_test");
+  EXPECT_EQ(workerProgram().filename(), "lucerna");
   setenv("LUCERNA_PROGRAM", "/opt/other", 1);
   EXPECT_EQ(workerProgram(), "/opt/other");
   unsetenv("LUCERNA_PROGRAM");
