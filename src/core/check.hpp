@@ -14,8 +14,8 @@ namespace lucerna {
 }  // namespace lucerna
 
 // CHECK(condition) or CHECK(condition, "format {}", values...): prints both and aborts when false.
-#define CHECK(condition, ...)                                                               \
-  do {                                                                                      \
-    if (!(condition)) [[unlikely]]                                                          \
+#define CHECK(condition, ...)                                                              \
+  do {                                                                                     \
+    if (!(condition)) [[unlikely]]                                                         \
       ::lucerna::failCheck(#condition, __FILE__, __LINE__, ::fmt::format("" __VA_ARGS__)); \
   } while (false)

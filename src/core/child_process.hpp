@@ -23,13 +23,13 @@ struct ChildLimits {
 struct ChildOutput {
   enum class End { Exited, Signalled, TimedOut, OutOfMemory, TooMuchOutput, NotStarted, Cancelled };
   End end = End::Exited;
-  int status = 0;  // exit code or signal number
-  Bytes out;       // what it wrote to stdout
-  std::string err; // what it wrote to stderr (the last 64 KiB)
+  int status = 0;   // exit code or signal number
+  Bytes out;        // what it wrote to stdout
+  std::string err;  // what it wrote to stderr (the last 64 KiB)
 };
 
-// Runs `program arguments...` with `input` on its stdin; kills it at a limit (memory is watched from
-// here: an address-space limit would abort garbage collectors). The child has its own session,
+// Runs `program arguments...` with `input` on its stdin; kills it at a limit (memory is watched
+// from here: an address-space limit would abort garbage collectors). The child has its own session,
 // no other open files and no core dump, and dies with its parent.
 ChildOutput runChild(const std::filesystem::path& program,
                      const std::vector<std::string>& arguments, std::span<const std::byte> input,
@@ -39,7 +39,7 @@ ChildOutput runChild(const std::filesystem::path& program,
 std::string describeEnd(const ChildOutput& output, const ChildLimits& limits);
 
 // The program that understands the hidden subcommands (`lucerna --worker NAME`) that children run:
-// what LUCERNA_PROGRAM names, else the running program if it is lucerna, else the lucerna beside it.
+// what LUCERNA_PROGRAM names, else the running program if it is lucerna, else the one beside it.
 std::filesystem::path workerProgram();
 
 }  // namespace lucerna

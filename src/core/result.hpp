@@ -16,11 +16,11 @@ namespace lucerna {
 
 // The values are the process exit codes.
 enum class ErrorKind {
-  Failed = 1,     // ran, but failed or differs
-  Usage = 2,      // unknown option or value on the command line
-  Input = 3,      // a file that cannot be read or makes no sense
-  NoGl = 4,       // no usable OpenGL
-  Pipeline = 5,   // pipeline, pass, script or shader error
+  Failed = 1,    // ran, but failed or differs
+  Usage = 2,     // unknown option or value on the command line
+  Input = 3,     // a file that cannot be read or makes no sense
+  NoGl = 4,      // no usable OpenGL
+  Pipeline = 5,  // pipeline, pass, script or shader error
   Cancelled = 130
 };
 
@@ -40,7 +40,7 @@ Error error(ErrorKind kind, fmt::format_string<Args...> format, Args&&... args) 
 template <typename T>
 class [[nodiscard]] Result {
  public:
-  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}  // NOLINT: implicit
+  Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: implicit
   Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit
 
   explicit operator bool() const { return state_.index() == 0; }
@@ -85,11 +85,11 @@ using Status = Result<void>;
 
 #define LUCERNA_CONCAT_(a, b) a##b
 #define LUCERNA_CONCAT(a, b) LUCERNA_CONCAT_(a, b)
-#define LUCERNA_TRY(name, expression)                             \
-  auto LUCERNA_CONCAT(name, Result_) = (expression);              \
+#define LUCERNA_TRY(name, expression)                                               \
+  auto LUCERNA_CONCAT(name, Result_) = (expression);                                \
   if (!LUCERNA_CONCAT(name, Result_)) return LUCERNA_CONCAT(name, Result_).error(); \
   auto name = std::move(LUCERNA_CONCAT(name, Result_)).value()
-#define LUCERNA_TRY_VOID(expression)                                         \
-  do {                                                                       \
+#define LUCERNA_TRY_VOID(expression)                                            \
+  do {                                                                          \
     if (auto tryResult_ = (expression); !tryResult_) return tryResult_.error(); \
   } while (false)

@@ -1,8 +1,8 @@
 // The resource "scene": the scene's copy on the GPU beside the scene itself.
 //
 // All meshes share one vertex and one index buffer; an object's matrices and material index are in
-// the storage block `ObjectBlock`, materials in `MaterialBlock` (render/scene.glsl). The object's index
-// reaches the vertex shader as the instanced attribute `objectIndex`, through baseInstance.
+// the storage block `ObjectBlock`, materials in `MaterialBlock` (render/scene.glsl). The object's
+// index reaches the vertex shader as the instanced attribute `objectIndex`, through baseInstance.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace lucerna::render {
 
 // What changed since the last frame; passes with caches read it.
 struct SceneChanges {
-  bool everything = true;                     // a new scene
+  bool everything = true;  // a new scene
   std::vector<std::uint32_t> movedObjects;
   bool lights = false, materials = false;
 };
@@ -31,19 +31,20 @@ struct GpuScene {
   static constexpr const char* kPortName = "Scene";
   const scene::Scene* scene = nullptr;
   SceneChanges changes;
-  scene::Bvh bvh;                             // over the objects' boxes; rebuilt when objects move
-  std::vector<MeshRange> meshes;              // as Scene::meshes
+  scene::Bvh bvh;                 // over the objects' boxes; rebuilt when objects move
+  std::vector<MeshRange> meshes;  // as Scene::meshes
   gpu::Buffer vertices, indices, objectIndices;
   gpu::VertexInput input;
-  gpu::Buffer objects, materials;             // ObjectBlock, MaterialBlock
-  std::vector<gpu::Texture> textures;         // as Scene::textures, each sRGB or linear as used; empty if
-                                              // no material uses it
-  std::vector<gpu::Texture> linearTextures;   // those that are used as data and as colour: the data copy
-  std::vector<gpu::Sampler> samplers;         // as Scene::textures
-  gpu::Texture white;                         // for unused slots
-  gpu::Texture backgroundCube;                // if the background is a cube map; z points the other
-                                              // way: look it up at (x, y, -z)
-  std::vector<bool> mirrored;                 // per object: its matrix flips orientation
+  gpu::Buffer objects, materials;      // ObjectBlock, MaterialBlock
+  std::vector<gpu::Texture> textures;  // as Scene::textures, each sRGB or linear as used; empty if
+                                       // no material uses it
+  // Data copies of the textures that are used both as data and as colour.
+  std::vector<gpu::Texture> linearTextures;
+  std::vector<gpu::Sampler> samplers;  // as Scene::textures
+  gpu::Texture white;                  // for unused slots
+  gpu::Texture backgroundCube;         // if the background is a cube map; z points the other
+                                       // way: look it up at (x, y, -z)
+  std::vector<bool> mirrored;          // per object: its matrix flips orientation
 };
 
 // Uploads everything. The scene must outlive it.

@@ -12,8 +12,8 @@ namespace lucerna::render {
 struct LightList {
   static constexpr const char* kPortName = "Lights";
   std::vector<scene::PlacedLight> lights;
-  vec3 ambient{0.f};       // scene ambient plus the lights' ambient shares
-  gpu::Buffer block;       // LightBlock: world space; at least one light's room, count in the header
+  vec3 ambient{0.f};  // scene ambient plus the lights' ambient shares
+  gpu::Buffer block;  // LightBlock: world space; at least one light's room, count in the header
 };
 
 void updateLights(gpu::Device& device, LightList& list, const scene::Scene& scene);

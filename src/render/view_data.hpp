@@ -10,8 +10,8 @@ namespace lucerna::render {
 struct ViewData {
   static constexpr const char* kPortName = "View";
   scene::View view;
-  uvec2 size{0};           // pixels of the rendering
-  gpu::Buffer block;       // ViewBlock
+  uvec2 size{0};      // pixels of the rendering
+  gpu::Buffer block;  // ViewBlock
 };
 
 // Fills `data` for a view of the given size; reuses its buffer.

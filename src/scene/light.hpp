@@ -22,17 +22,17 @@ enum class LightKind { Directional, Point, Spot };
 struct Light {
   std::string name;
   LightKind kind = LightKind::Point;
-  vec3 color{1.f};                // linear
-  float intensity = 1.f;          // cd (point, spot) or lux (directional)
-  float ambientIntensity = 0.f;   // VRML: this share of color*intensity/pi adds to the ambient light
+  vec3 color{1.f};               // linear
+  float intensity = 1.f;         // cd (point, spot) or lux (directional)
+  float ambientIntensity = 0.f;  // VRML: this share of color*intensity/pi adds to the ambient light
   vec3 attenuation{0.f, 0.f, 1.f};  // constant, linear (1/m), quadratic (1/m^2); glTF is (0, 0, 1)
-  float range = 0.f;              // m; 0: derived, see reach()
-  float radius = 0.f;             // m; sphere (point) or disc across the axis (spot)
-  float angle = 0.f;              // rad; full angle of a directional light's cone (the sun 0.0093)
-  float innerCone = 0.f;          // rad, half-angle of full strength (spot)
-  float outerCone = 0.785398f;    // rad, half-angle where it ends (spot)
-  float exponent = 0.f;           // of cos(angle to the axis) inside the cone (spot); 0: none
-  std::string group;              // lights of a group switch together; "" is always on
+  float range = 0.f;                // m; 0: derived, see reach()
+  float radius = 0.f;               // m; sphere (point) or disc across the axis (spot)
+  float angle = 0.f;            // rad; full angle of a directional light's cone (the sun 0.0093)
+  float innerCone = 0.f;        // rad, half-angle of full strength (spot)
+  float outerCone = 0.785398f;  // rad, half-angle where it ends (spot)
+  float exponent = 0.f;         // of cos(angle to the axis) inside the cone (spot); 0: none
+  std::string group;            // lights of a group switch together; "" is always on
   bool on = true;
   std::uint32_t node = kNone;
 };
@@ -45,10 +45,10 @@ struct PlacedLight {
   vec3 intensity{0.f};              // color * intensity
   vec3 ambient{0.f};                // color * ambientIntensity * intensity / pi
   vec3 attenuation{0.f, 0.f, 1.f};
-  float reach = 0.f;                // m; infinity for directional lights
+  float reach = 0.f;  // m; infinity for directional lights
   float radius = 0.f, angle = 0.f;
   float cosInner = 1.f, cosOuter = -1.f, exponent = 0.f;
-  std::uint32_t light = kNone;      // index in Scene::lights
+  std::uint32_t light = kNone;  // index in Scene::lights
 };
 
 // The distance beyond which the light gives nothing: `range` if stated; else where a white surface

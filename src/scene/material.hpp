@@ -19,7 +19,7 @@ struct TextureSlot {
   std::uint32_t texture = kNoTexture;  // index in Scene::textures
   int texCoord = 0;                    // 0 or 1
   vec2 offset{0.f}, scale{1.f};
-  float rotation = 0.f;                // rad, counter-clockwise
+  float rotation = 0.f;  // rad, counter-clockwise
   bool used() const { return texture != kNoTexture; }
 };
 
@@ -30,9 +30,9 @@ struct Material {
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
 
-  vec4 albedo{1.f};          // linear; diffuse of Phong, base colour of metallic-roughness; a: opacity
-  TextureSlot albedoTexture;  // sRGB, times albedo
-  vec3 emissive{0.f};         // linear radiance
+  vec4 albedo{1.f};  // linear; diffuse of Phong, base colour of metallic-roughness; a: opacity
+  TextureSlot albedoTexture;    // sRGB, times albedo
+  vec3 emissive{0.f};           // linear radiance
   TextureSlot emissiveTexture;  // sRGB, times emissive
   TextureSlot normalTexture;    // tangent space
   float normalScale = 1.f;
@@ -46,13 +46,15 @@ struct Material {
   float occlusionStrength = 1.f;
 
   // Phong
-  vec3 specular{0.f};       // linear
-  float shininess = 32.f;   // exponent h, 0 to 255 in the G-buffer
+  vec3 specular{0.f};      // linear
+  float shininess = 32.f;  // exponent h, 0 to 255 in the G-buffer
 };
 
 // THE formula for light passing straight through a translucent surface of opacity `alpha`:
 //   T = (1 - alpha) * transmission
 // Blending computes color = shaded * alpha + T * behind; coloured shadows multiply T.
-inline vec3 transmittance(float alpha, vec3 transmission) { return (1.f - alpha) * transmission; }
+inline vec3 transmittance(float alpha, vec3 transmission) {
+  return (1.f - alpha) * transmission;
+}
 
 }  // namespace lucerna::scene

@@ -1,5 +1,5 @@
-// A scene as plain data: what files are read into and what the renderer, the reference and the baker
-// read. Metres, seconds, right-handed, y up, radians; colours linear. No GL.
+// A scene as plain data: what files are read into and what the renderer, the reference and the
+// baker read. Metres, seconds, right-handed, y up, radians; colours linear. No GL.
 //
 // Everything refers to everything by index into the vectors of Scene; kNone means absent.
 #pragma once
@@ -23,12 +23,12 @@ namespace lucerna::scene {
 struct Mesh {
   std::string name;
   std::vector<vec3> positions;
-  std::vector<vec3> normals;    // unit; makeNormals() fills them where a file has none
-  std::vector<vec4> tangents;   // xyz unit, w = handedness +-1
+  std::vector<vec3> normals;   // unit; makeNormals() fills them where a file has none
+  std::vector<vec4> tangents;  // xyz unit, w = handedness +-1
   std::array<std::vector<vec2>, 2> texCoords;  // (0, 0) is the top left texel's corner, as in glTF
-  std::vector<u8vec4> colors;   // linear unorm, multiplies albedo
+  std::vector<u8vec4> colors;                  // linear unorm, multiplies albedo
   std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from the front
-  Aabb bounds;                  // of the positions that indices use
+  Aabb bounds;                         // of the positions that indices use
 
   std::size_t triangleCount() const { return indices.size() / 3; }
 };
@@ -41,7 +41,7 @@ struct Node {
   vec3 scale{1.f};
   // If the file gave a matrix that translation, rotation and scale cannot express (shear).
   std::optional<mat4> matrix;
-  mat4 worldFromNode{1.f};       // kept by updateTransforms()
+  mat4 worldFromNode{1.f};  // kept by updateTransforms()
 
   mat4 parentFromNode() const;
 };
@@ -49,17 +49,17 @@ struct Node {
 // One mesh drawn with one material where its node stands.
 struct Object {
   std::uint32_t node = kNone, mesh = kNone, material = kNone;
-  Aabb boundsW;                  // kept by updateTransforms()
+  Aabb boundsW;  // kept by updateTransforms()
 };
 
 struct Camera {
   std::string name;
   bool orthographic = false;
-  float fovY = 0.9f;             // rad, full vertical angle
-  float height = 2.f;            // m, full height of an orthographic view
-  float aspect = 0.f;            // width / height; 0: that of the output
-  float near = 0.f, far = 0.f;   // m; 0: chosen from the scene's size (far: infinity is allowed)
-  std::uint32_t node = kNone;    // looks along -z, +y up
+  float fovY = 0.9f;            // rad, full vertical angle
+  float height = 2.f;           // m, full height of an orthographic view
+  float aspect = 0.f;           // width / height; 0: that of the output
+  float near = 0.f, far = 0.f;  // m; 0: chosen from the scene's size (far: infinity is allowed)
+  std::uint32_t node = kNone;   // looks along -z, +y up
 };
 
 enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };
@@ -68,7 +68,7 @@ struct Texture {
   std::string name;
   std::shared_ptr<const Image> image;  // never null: a missing file is a checkerboard stand-in
   Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
-  bool nearest = false;          // magnification without filtering
+  bool nearest = false;  // magnification without filtering
 };
 
 enum class AnimationPath { Translation, Rotation, Scale };
@@ -78,14 +78,14 @@ struct AnimationChannel {
   std::uint32_t node = kNone;
   AnimationPath path = AnimationPath::Translation;
   Interpolation interpolation = Interpolation::Linear;
-  std::vector<float> times;      // s, rising
-  std::vector<vec4> values;      // one a key (three for CubicSpline); rotation as x, y, z, w
+  std::vector<float> times;  // s, rising
+  std::vector<vec4> values;  // one a key (three for CubicSpline); rotation as x, y, z, w
 };
 
 struct Animation {
   std::string name;
   std::vector<AnimationChannel> channels;
-  float duration() const;        // s; it repeats
+  float duration() const;  // s; it repeats
 };
 
 enum class BackgroundKind { Color, Image, CubeMap };
@@ -95,11 +95,12 @@ struct Background {
   vec3 color{0.035f, 0.045f, 0.06f};  // linear radiance; the documented default, not black
   float intensity = 1.f;              // of the image or cube map
   std::uint32_t texture = kNone;      // Image: stretched over the output
-  std::array<std::uint32_t, 6> faces{kNone, kNone, kNone, kNone, kNone, kNone};  // +x -x +y -y +z -z
+  std::array<std::uint32_t, 6> faces{kNone, kNone, kNone,
+                                     kNone, kNone, kNone};  // +x -x +y -y +z -z
 };
 
 struct Scene {
-  std::string name;              // for messages and `lucerna info`
+  std::string name;  // for messages and `lucerna info`
   std::vector<Mesh> meshes;
   std::vector<Material> materials;
   std::vector<Texture> textures;
@@ -109,9 +110,10 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Animation> animations;
   Background background;
-  vec3 ambient{0.f};             // radiance-like: a white surface shows it (IA of the Phong model)
-  float exposure = 0.f;          // EV: linear colours are multiplied by 2^exposure before tone mapping
-  std::vector<std::string> warnings;  // what was repaired or left out while loading, one sentence each
+  vec3 ambient{0.f};     // radiance-like: a white surface shows it (IA of the Phong model)
+  float exposure = 0.f;  // EV: linear colours are multiplied by 2^exposure before tone mapping
+  // What was repaired or left out while loading, one sentence each.
+  std::vector<std::string> warnings;
 
   Aabb boundsW() const;
   std::size_t triangleCount() const;  // as drawn: meshes count once per object
@@ -130,13 +132,13 @@ std::vector<PlacedLight> placeLights(const Scene& scene);
 // headlight-like directional light with some ambient if there is no light, a camera that fits the
 // scene if there is none. Called once by loadScene().
 void complete(Scene& scene);
-void makeNormals(Mesh& mesh);    // area-weighted over equal positions that share a vertex
+void makeNormals(Mesh& mesh);  // area-weighted over equal positions that share a vertex
 void makeTangents(Mesh& mesh, int texCoord);
 
 std::uint32_t addNode(Scene& scene, Node node);
 // Adds a node with the given world placement and no parent.
 std::uint32_t addNode(Scene& scene, std::string name, const mat4& worldFromNode);
-// Sets translation, rotation and scale from a matrix, or `matrix` itself where they cannot express it.
+// Sets translation, rotation and scale from a matrix, or `matrix` itself where they cannot give it.
 void setLocalTransform(Node& node, const mat4& parentFromNode);
 
 }  // namespace lucerna::scene

@@ -8,7 +8,7 @@ namespace lucerna::scene {
 
 struct View {
   mat4 viewFromWorld{1.f};
-  mat4 clipFromView{1.f};   // reversed depth, clip z in [0, w]
+  mat4 clipFromView{1.f};  // reversed depth, clip z in [0, w]
   mat4 worldFromView{1.f};
   float near = 0.1f, far = 1000.f;  // m; far may be infinity
   bool orthographic = false;
