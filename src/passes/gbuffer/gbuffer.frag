@@ -11,12 +11,11 @@ layout(location = 3) out uvec4 materialTexel;
 layout(location = 4) out vec3 emissive;
 
 void main() {
-  MaterialValues material = materials[materialIndex];
-  vec4 baseColor = baseColorOf(material);
+  vec4 baseColor = materialColor();
 #ifdef ALPHA_TEST
   if (baseColor.a < material.transmission.w) discard;
 #endif
-  Surface s = surfaceOf(material, baseColor);
+  Surface s = surfaceOf(baseColor);
   normal = encodeNormal(normalize(mat3(view.viewFromWorld) * s.normalW));
   albedo = vec4(s.albedo, 1.0);
   specular = vec4(s.specular, s.occlusion);
