@@ -10,6 +10,9 @@ namespace lucerna::gpu {
 
 class Device;
 
+// Where a block that is a part of a buffer may begin, in bytes: the most that drivers ask for.
+inline constexpr std::size_t kBlockAlignment = 256;
+
 class Buffer {
  public:
   Buffer() = default;

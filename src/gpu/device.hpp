@@ -83,6 +83,8 @@ class Commands {
   // Integer formats are read with kNearest. An element of a sampler array is "name[2]".
   void texture(std::string_view name, const Texture& texture, const Sampler& sampler);
   void buffer(std::string_view block, const Buffer& buffer);  // uniform or storage block
+  // A part of it; offset: a multiple of kBlockAlignment.
+  void buffer(std::string_view block, const Buffer& buffer, std::size_t offset, std::size_t bytes);
   void image(std::string_view name, const Texture& texture, int level = 0);  // load and store
 
  protected:

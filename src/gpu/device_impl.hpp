@@ -54,7 +54,7 @@ struct Scope {
   struct BoundBuffer {
     std::string name;
     GLuint buffer = 0;
-    std::size_t bytes = 0;
+    std::size_t offset = 0, bytes = 0;
   };
   struct BoundImage {
     std::string name;

@@ -151,12 +151,21 @@ void Commands::texture(std::string_view name, const Texture& texture, const Samp
 }
 
 void Commands::buffer(std::string_view block, const Buffer& buffer) {
+  this->buffer(block, buffer, 0, buffer.bytes());
+}
+
+void Commands::buffer(std::string_view block, const Buffer& buffer, std::size_t offset,
+                      std::size_t bytes) {
   CHECK(buffer, "block '{}' is given an empty buffer", block);
+  CHECK(offset % kBlockAlignment == 0 && offset + bytes <= buffer.bytes(),
+        "block '{}': bytes {} to {} of a buffer of {}", block, offset, offset + bytes,
+        buffer.bytes());
   Scope& scope = device_->impl().scope;
   Scope::BoundBuffer& slot = named(scope.buffers, block);
-  if (slot.buffer == buffer.id() && slot.bytes == buffer.bytes()) return;
+  if (slot.buffer == buffer.id() && slot.offset == offset && slot.bytes == bytes) return;
   slot.buffer = buffer.id();
-  slot.bytes = buffer.bytes();
+  slot.offset = offset;
+  slot.bytes = bytes;
   scope.dirty = true;
 }
 

@@ -148,7 +148,8 @@ void Device::Impl::bindForProgram() {
       // Drivers round the size of a block up to 16 bytes.
       CHECK((source.bytes + 15) / 16 * 16 >= static_cast<std::size_t>(slot.bytes),
             "block '{}' reads {} bytes, its buffer has {}", slot.name, slot.bytes, source.bytes);
-      glBindBufferBase(target, slot.unit, source.buffer);
+      glBindBufferRange(target, slot.unit, source.buffer, static_cast<GLintptr>(source.offset),
+                        static_cast<GLsizeiptr>(source.bytes));
     }
   };
   bindBlocks(needs.uniformBlocks, GL_UNIFORM_BUFFER);

@@ -18,7 +18,7 @@ struct TextureUse {
   vec4 offset;         // xy: added to it; z: texture coordinate set, 0 or 1; w: 1 if the slot is used
 };
 
-// Element of the storage block MaterialBlock (render/scene.glsl).
+// Uniform block MaterialBlock (render/scene.glsl).
 struct MaterialValues {
   vec4 albedo;         // linear; a: opacity
   vec4 emissive;       // rgb: linear radiance; w: normal map scale
@@ -30,6 +30,7 @@ struct MaterialValues {
   TextureUse normalUse;
   TextureUse metallicRoughnessUse;
   TextureUse occlusionUse;
+  vec4 unused;         // to the alignment of blocks, 256 bytes
 };
 
 // Element of the storage block ObjectBlock (render/scene.glsl).
@@ -38,7 +39,7 @@ struct ObjectValues {
   vec4 normalMatrix0;  // columns of the matrix on normals (to be normalised after);
   vec4 normalMatrix1;
   vec4 normalMatrix2;
-  uvec4 info;          // material index; 1 if the matrix flips orientation; unused; unused
+  uvec4 info;          // x: 1 if the matrix flips orientation
 };
 
 // Element of the storage block LightBlock (render/lights.glsl); world space.

@@ -16,15 +16,15 @@ using glm::vec4;
 static_assert(sizeof(ViewValues) == 4 * 64 + 2 * 16);
 static_assert(offsetof(ViewValues, eyeW) == 256);
 static_assert(sizeof(TextureUse) == 32);
-static_assert(sizeof(MaterialValues) == 5 * 16 + 5 * 32);
+static_assert(sizeof(MaterialValues) == 256);
 static_assert(offsetof(MaterialValues, albedoUse) == 80);
 static_assert(sizeof(ObjectValues) == 64 + 4 * 16);
 static_assert(sizeof(LightValues) == 5 * 16);
 
 // The fixed part of LightBlock, before its LightValues.
 struct LightHeader {
-  vec4 ambient;        // rgb: a white surface shows it
-  uvec4 count;         // x: lights that follow
+  vec4 ambient;  // rgb: a white surface shows it
+  uvec4 count;   // x: lights that follow
 };
 static_assert(sizeof(LightHeader) == 32);
 

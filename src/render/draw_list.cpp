@@ -1,5 +1,7 @@
 #include "render/draw_list.hpp"
 
+#include "render/blocks.hpp"
+
 namespace lucerna::render {
 namespace {
 
@@ -64,7 +66,9 @@ void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawLis
     state.frontIsClockwise = batch.mirrored;
     rendering.use(program, state);
     rendering.buffer("ObjectBlock", gpuScene.objects);
-    rendering.buffer("MaterialBlock", gpuScene.materials);
+    rendering.buffer("MaterialBlock", gpuScene.materials,
+                     batch.material * sizeof(blocks::MaterialValues),
+                     sizeof(blocks::MaterialValues));
     rendering.buffer("ViewBlock", view);
     bindTextures(rendering, gpuScene, material);
     rendering.multiDraw(gpuScene.input, list.commands, batch.firstCommand, batch.commandCount,

@@ -12,12 +12,11 @@ layout(location = 0, index = 1) out vec4 transmittance;
 #endif
 
 void main() {
-  MaterialValues material = materials[materialIndex];
-  vec4 baseColor = baseColorOf(material);
+  vec4 baseColor = materialColor();
 #ifdef ALPHA_TEST
   if (baseColor.a < material.transmission.w) discard;
 #endif
-  vec3 radiance = shade(surfaceOf(material, baseColor));
+  vec3 radiance = shade(surfaceOf(baseColor));
 #ifdef TRANSPARENT
   // transmittance() of scene/material.hpp.
   float opacity = clamp(baseColor.a, 0.0, 1.0);

@@ -32,7 +32,7 @@ blocks::ObjectValues objectValues(const scene::Scene& scene, const scene::Object
           .normalMatrix0 = vec4(normals[0], 0.f),
           .normalMatrix1 = vec4(normals[1], 0.f),
           .normalMatrix2 = vec4(normals[2], 0.f),
-          .info = uvec4(object.material, flipsOrientation(worldFromObject) ? 1 : 0, 0, 0)};
+          .info = uvec4(flipsOrientation(worldFromObject) ? 1 : 0, 0, 0, 0)};
 }
 
 blocks::TextureUse textureUse(const scene::TextureSlot& slot) {
@@ -55,7 +55,8 @@ blocks::MaterialValues materialValues(const scene::Material& m) {
           .emissiveUse = textureUse(m.emissiveTexture),
           .normalUse = textureUse(m.normalTexture),
           .metallicRoughnessUse = textureUse(m.metallicRoughnessTexture),
-          .occlusionUse = textureUse(m.occlusionTexture)};
+          .occlusionUse = textureUse(m.occlusionTexture),
+          .unused = vec4(0.f)};
 }
 
 // Blocks of no elements cannot be bound: there is always one.

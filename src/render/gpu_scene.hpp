@@ -1,8 +1,9 @@
 // The resource "scene": the scene's copy on the GPU beside the scene itself.
 //
-// All meshes share one vertex and one index buffer; an object's matrices and material index are in
-// the storage block `ObjectBlock`, materials in `MaterialBlock` (render/scene.glsl). The object's
-// index reaches the vertex shader as the instanced attribute `objectIndex`, through baseInstance.
+// All meshes share one vertex and one index buffer; objects' matrices are in the storage block
+// `ObjectBlock`, a batch's material in the uniform block `MaterialBlock` (render/scene.glsl). The
+// object's index reaches the vertex shader as the instanced attribute `objectIndex`, through
+// baseInstance.
 #pragma once
 
 #include <cstdint>

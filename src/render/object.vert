@@ -18,7 +18,6 @@ layout(location = 1) out vec3 normalW;
 layout(location = 2) out vec4 tangentW;    // w: handedness in the world; all 0 where there is none
 layout(location = 3) out vec4 texCoords;   // set 0 in xy, set 1 in zw
 layout(location = 4) out vec4 vertexColor;
-layout(location = 5) flat out uint materialIndex;
 
 void main() {
   ObjectValues object = objects[objectIndex];
@@ -30,10 +29,9 @@ void main() {
   // Unequal scales would weight the corners of a triangle differently.
   normalW *= inversesqrt(max(dot(normalW, normalW), 1e-30));
   // A mirror image turns the bitangent round.
-  float handedness = object.info.y == 1u ? -tangentO.w : tangentO.w;
+  float handedness = object.info.x == 1u ? -tangentO.w : tangentO.w;
   tangentW = vec4(mat3(object.worldFromObject) * tangentO.xyz, handedness);
   texCoords = vec4(texCoord0, texCoord1);
   vertexColor = color;
-  materialIndex = object.info.x;
   gl_Position = view.clipFromView * (view.viewFromWorld * position);
 }
