@@ -23,7 +23,9 @@ int runWorker(int count, char** words) {
 
 // Errors go to stderr; with --json the one document on stdout says it too.
 int fail(const Error& fault, bool json) {
-  std::fprintf(stderr, "error: %s\n", fault.message.c_str());
+  // A list of faults says of each line itself whether it is an error or a warning.
+  const char* prefix = fault.message.starts_with("error: ") ? "" : "error: ";
+  std::fprintf(stderr, "%s%s\n", prefix, fault.message.c_str());
   const int code = static_cast<int>(fault.kind);
   if (json) printJson({{"error", {{"code", code}, {"message", fault.message}}}});
   return code;
