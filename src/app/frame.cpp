@@ -14,7 +14,10 @@ void applySceneChanges(Session& s) {
     render::updateMoved(*s.device, s.gpuScene, moved);
     render::updateLights(*s.device, s.lights, s.scene);
   }
-  if (s.cameraPath) moveCamera(s.scene, s.camera, s.cameraPath->at(s.time()));
+  if (s.cameraPath) {
+    moveCamera(s.scene, s.camera, s.cameraPath->at(s.time()));
+    if (s.scene.headlight != scene::kNone) render::updateLights(*s.device, s.lights, s.scene);
+  }
   const uvec2 size = s.settings.renderSize();
   const float aspect =
       static_cast<float>(s.settings.size.x) / static_cast<float>(s.settings.size.y);

@@ -38,6 +38,9 @@ Status takeScene(Session& session, Result<scene::Scene> scene) {
   if (session.cameraPath)
     session.camera = addCamera(session.scene, session.settings.cameraPath,
                                session.cameraPath->at(session.settings.time));
+  scene::Scene& s = session.scene;
+  if (s.headlight != scene::kNone)
+    s.lights[s.headlight].node = s.cameras[session.camera].node;
   return {};
 }
 

@@ -117,6 +117,30 @@ TEST_F(SessionTest, ExposureMakesThePictureBrighter) {
   EXPECT_GT(sum(*bright), 1.5 * sum(*dark));
 }
 
+// A wall seen from its back: the light that a scene without lights gets is at the camera in use.
+TEST_F(SessionTest, TheHeadlightGoesWithTheChosenCamera) {
+  const auto write = [&](const char* name, std::string_view text) {
+    EXPECT_TRUE(writeFile(folder_ / name, std::as_bytes(std::span(text))));
+    return (folder_ / name).string();
+  };
+  settings_.scene = write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n");
+  settings_.sets = {"ToneMap.operator=linear"};
+  settings_.camera =
+      write("back.json", R"({"position": [0, 0, -1], "target": [0, 0, 0], "fovY": 30})");
+  const auto fromCamera = readImage(render("camera.png"));
+  ASSERT_TRUE(fromCamera) << fromCamera.error().message;
+  EXPECT_GT(fromCamera->pixel<std::uint8_t>(48, 27)[1], 150);
+
+  settings_.camera.clear();
+  settings_.cameraPath = write("path.json", R"({"keyframes": [
+      {"time": 0, "position": [0, 0, 1], "target": [0, 0, 0], "fovY": 30},
+      {"time": 1, "position": [0, 0, -1], "target": [0, 0, 0], "fovY": 30}]})");
+  settings_.time = 1;
+  const auto onPath = readImage(render("path.png"));
+  ASSERT_TRUE(onPath) << onPath.error().message;
+  EXPECT_GT(onPath->pixel<std::uint8_t>(48, 27)[1], 150);
+}
+
 TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
   const std::filesystem::path file = folder_ / "mine.js";
   const auto write = [&](const std::string& text, int seconds) {

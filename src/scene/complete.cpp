@@ -48,6 +48,7 @@ void addHeadlight(Scene& scene) {
   light.kind = LightKind::Directional;
   light.intensity = kHeadlightBrightness * glm::pi<float>();
   light.node = scene.cameras.front().node;
+  scene.headlight = static_cast<std::uint32_t>(scene.lights.size());
   scene.lights.push_back(light);
   scene.ambient = glm::max(scene.ambient, vec3(kDefaultAmbient));
 }

@@ -107,6 +107,8 @@ struct Scene {
   std::vector<Node> nodes;
   std::vector<Object> objects;
   std::vector<Light> lights;
+  // Of lights: the one that complete() added. It goes with the camera that is looked through.
+  std::uint32_t headlight = kNone;
   std::vector<Camera> cameras;
   std::vector<Animation> animations;
   Background background;

@@ -168,10 +168,9 @@ class MaterialConversion {
     if (opacity < 1.f) material.alphaMode = AlphaMode::Blend;
     material.emissive = colorOr(source, "$clr.emissive", vec3(0.f));
     if (file_.obj) material.transmission = colorOr(source, "$clr.transparent", vec3(1.f));
-    int twoSided = 0;
-    source.Get(AI_MATKEY_TWOSIDED, twoSided);
-    // Files that are silent about sides are made for viewers that show both.
-    material.doubleSided = file_.sidesMatter ? twoSided != 0 : true;
+    // Files that are silent about sides are made for viewers that show both; assimp is silent about
+    // the sides of AC3D's surfaces.
+    material.doubleSided = true;
 
     const float metallic = numberOr(source, "$mat.metallicFactor", -1.f);
     const float roughness = numberOr(source, "$mat.roughnessFactor", -1.f);

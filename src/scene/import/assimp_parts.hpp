@@ -16,7 +16,6 @@ namespace lucerna::scene {
 struct FileConventions {
   bool ac3d = false;
   bool obj = false;
-  bool sidesMatter = false;  // the file says which surfaces are double-sided
 };
 
 // Our material of each of assimp's; kNone for assimp's stand-in in files without materials.

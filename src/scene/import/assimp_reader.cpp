@@ -8,22 +8,24 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <fstream>
+#include <set>
 
 #include "core/file.hpp"
 #include "scene/import/ac3d_text.hpp"
 #include "scene/import/assimp_parts.hpp"
 #include "scene/import/mesh_build.hpp"
+#include "scene/import/mtl_text.hpp"
 
 namespace lucerna::scene {
 namespace {
 
 constexpr std::size_t kMaxNodeDepth = 1000;
+constexpr std::uint64_t kMaxLibraryBytes = 64ull << 20;
 
 FileConventions conventionsOf(const std::string& extension) {
   FileConventions file;
   file.ac3d = extension == ".ac" || extension == ".acc";
   file.obj = extension == ".obj";
-  file.sidesMatter = file.ac3d;
   return file;
 }
 
@@ -192,8 +194,21 @@ std::string withoutFullStop(std::string sentence) {
   return sentence;
 }
 
-// assimp does not tell when a material library is not there. Files name theirs near the start.
-void warnOfMissingLibraries(const std::filesystem::path& path, Scene& scene) {
+// The textured materials of a library are what their textures say, unless it gives a colour for
+// them, too; assimp would multiply by a grey of its own.
+void takeGreyOffTextures(const std::filesystem::path& library, Scene& scene) {
+  const Result<Bytes> bytes = readFile(library, kMaxLibraryBytes);
+  if (!bytes) return;
+  const std::set<std::string> colored =
+      materialsWithDiffuse({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  for (Material& material : scene.materials)
+    if (material.albedoTexture.used() && !colored.contains(material.name))
+      material.albedo = vec4(1.f, 1.f, 1.f, material.albedo.w);
+}
+
+// What assimp does not tell: a material library that is not there, and colours that are its own.
+// Files name their libraries near the start.
+void readLibraries(const std::filesystem::path& path, Scene& scene) {
   constexpr std::size_t kStart = 1 << 20;
   std::string text(kStart, '\0');
   std::ifstream file(path, std::ios::binary);
@@ -208,9 +223,11 @@ void warnOfMissingLibraries(const std::filesystem::path& path, Scene& scene) {
     std::string name = text.substr(at, text.find_first_of("\r\n", at) - at);
     while (!name.empty() && name.back() == ' ') name.pop_back();
     std::error_code code;
-    if (std::filesystem::exists(path.parent_path() / name, code)) continue;
     std::filesystem::path standIn = path;
     standIn.replace_extension(".mtl");  // what assimp tries next
+    const bool found = std::filesystem::exists(path.parent_path() / name, code);
+    takeGreyOffTextures(found ? path.parent_path() / name : standIn, scene);
+    if (found) continue;
     const std::string instead = std::filesystem::exists(standIn, code)
                                     ? standIn.filename().string() + " is read instead"
                                     : "its materials are a plain grey";
@@ -239,7 +256,7 @@ Result<ImportedScene> readWithAssimp(const std::filesystem::path& path) {
     return error(ErrorKind::Input, "{}: {}; wanted a valid {} file; export it again", path.string(),
                  withoutFullStop(importer->GetErrorString()), extension);
   ImportedScene imported = Conversion(*scene, file).run(metresFromFile(*scene, extension));
-  if (file.obj) warnOfMissingLibraries(path, imported.scene);
+  if (file.obj) readLibraries(path, imported.scene);
   return imported;
 }
 

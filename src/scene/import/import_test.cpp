@@ -80,6 +80,40 @@ TEST_F(Import, OpacityPicturesBecomeAlphaAndHeightMapsAreLeftOut) {
   EXPECT_EQ(image.pixel<std::uint8_t>(1, 1)[3], 7);
 }
 
+// assimp makes it 0.6 grey; the textures of such libraries would come out dark.
+TEST_F(Import, TexturesWithoutADiffuseColourAreNotDarkened) {
+  write("q.mtl", "newmtl m\n\tmap_Kd c.png\n");
+  writePicture("c.png", {10, 20, 30, 255}, 3);
+  const fs::path path = write("q.obj", kQuad);
+  EXPECT_EQ(importScene(path)->materials[0].albedo, vec4(1.f));
+  write("q.mtl", "newmtl m\n\tKd 0.6 0.6 0.6\n\tmap_Kd c.png\n");
+  EXPECT_EQ(importScene(path)->materials[0].albedo, vec4(0.6f, 0.6f, 0.6f, 1.f));
+}
+
+// One of the two quads of a TORCS tree would be missing from every side.
+TEST_F(Import, SurfacesOfAc3dShowBothSides) {
+  const Result<Scene> scene = importScene(write("q.ac", R"(AC3Db
+MATERIAL "" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 10 trans 0
+OBJECT world
+kids 1
+OBJECT poly
+numvert 3
+0 0 0
+1 0 0
+0 1 0
+numsurf 1
+SURF 0x30
+mat 0
+refs 3
+0 0 0
+1 1 0
+2 0 1
+kids 0
+)"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_TRUE(scene->materials.at(0).doubleSided);
+}
+
 TEST_F(Import, NormalMapsInBumpSlotsAreUsed) {
   write("q.mtl", "newmtl m\nmap_bump n.png\n");
   writePicture("n.png", {128, 128, 255, 255}, 3);
