@@ -1,12 +1,14 @@
 """Renders a scene with Blender's Cycles from a camera that `lucerna render` was given, for a look side
 by side. Direct light only, as the passes do; Blender is not a dependency of Lucerna.
 
-  blender -b --factory-startup -P tools/blender_picture.py -- SCENE CAMERA.json OUT.png [WxH] [SAMPLES]
+  blender -b --factory-startup -P tools/blender_picture.py -- SCENE CAMERA.json OUT.png [WxH] [SAMPLES] [EXPOSURE]
 
 CAMERA.json: {"position": [x, y, z], "target": [x, y, z], "fovY": degrees}, y up, metres.
 A scene without lights gets the headlight and ambient light that lucerna gives it. Where Cycles knows
-something only as a hint for its viewport, the materials are rewired to mean it: ambient light (as
-emission, for Cycles would darken it by what is near) and the backs of single-sided materials.
+something only as a hint for its viewport, the materials are rewired to mean it: alpha cutoffs and the
+backs of single-sided materials. Ambient light becomes emission, for Cycles would darken it by what is
+near; and Disney's diffuse reflection, which is up to six times Lambert's where a headlight meets a
+surface at a grazing angle, becomes Lambert's, which glTF and OBJ mean.
 """
 import json
 import math
@@ -20,6 +22,7 @@ from mathutils import Vector
 numpy.bool = bool  # Debian's Blender 3.4 still uses the alias that Debian's NumPy 1.24 dropped
 HEADLIGHT = math.pi * 0.8  # irradiance, as scene::complete()
 AMBIENT = 0.2
+BACKGROUND = (0.035, 0.045, 0.06, 1)  # as scene::Background
 LUMENS_PER_WATT = 683
 
 
@@ -35,6 +38,8 @@ def load(path):
         for lamp in bpy.data.lights:
             lamp.energy *= LUMENS_PER_WATT  # the importer turns candela and lux into watts
             lamp.shadow_soft_size = 0
+        for image in bpy.data.images:
+            image.alpha_mode = "CHANNEL_PACKED"  # colours are not premultiplied in glTF
     elif extension == ".obj":
         bpy.ops.wm.obj_import(filepath=path, forward_axis="NEGATIVE_Z", up_axis="Y")
     elif extension == ".ply":
@@ -69,20 +74,77 @@ def source_of(socket):
     return socket.links[0].from_socket if socket.is_linked else socket.default_value
 
 
-def add_ambient(material):
+def principled(tree, like, color, metallic):
+    """The highlights of a Principled BSDF; its diffuse part only where `color` is one."""
+    shader = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    connect(tree, color, shader.inputs["Base Color"])
+    shader.inputs["Metallic"].default_value = metallic
+    for name in ("Roughness", "Specular", "Normal"):
+        if like.inputs[name].is_linked:
+            tree.links.new(source_of(like.inputs[name]), shader.inputs[name])
+        elif name != "Normal":
+            shader.inputs[name].default_value = like.inputs[name].default_value
+    shader.distribution = "GGX"
+    return shader.outputs[0]
+
+
+def combined(tree, kind, *inputs):
+    node = tree.nodes.new(kind)
+    for socket, source in zip(node.inputs, inputs):
+        if isinstance(source, bpy.types.NodeSocket):
+            tree.links.new(source, socket)
+        else:
+            socket.default_value = source
+    return node.outputs[0]
+
+
+def opacity(material, tree, shader):
+    """What the file says: with a cutoff where it has one, and of OBJ from the mask's grey."""
+    socket = shader.inputs["Alpha"]
+    alpha = source_of(socket)
+    if not socket.is_linked:
+        return alpha
+    image = alpha.node
+    is_mask = image.type == "TEX_IMAGE" and not image.outputs["Color"].is_linked
+    if is_mask:
+        image.image.colorspace_settings.name = "Non-Color"
+        alpha = image.outputs["Color"]
+    if is_mask or material.blend_method == "CLIP":
+        cut = tree.nodes.new("ShaderNodeMath")
+        cut.operation = "GREATER_THAN"
+        cut.inputs[1].default_value = material.alpha_threshold
+        tree.links.new(alpha, cut.inputs[0])
+        alpha = cut.outputs[0]
+    return alpha
+
+
+def as_lambert(material, ambient):
+    """Every Principled BSDF becomes Lambert's diffuse reflection plus its own highlights, ambient light
+    and emission, all behind its opacity."""
     tree = material.node_tree
     for shader in [n for n in tree.nodes if n.type == "BSDF_PRINCIPLED"]:
-        own = tree.nodes.new("ShaderNodeVectorMath")
-        own.operation = "MULTIPLY"
-        connect(tree, source_of(shader.inputs["Emission"]), own.inputs[0])
-        own.inputs[1].default_value = (shader.inputs["Emission Strength"].default_value,) * 3
-        both = tree.nodes.new("ShaderNodeVectorMath")
-        both.operation = "MULTIPLY_ADD"
-        connect(tree, source_of(shader.inputs["Base Color"]), both.inputs[0])
-        both.inputs[1].default_value = (AMBIENT,) * 3
-        tree.links.new(own.outputs[0], both.inputs[2])
-        tree.links.new(both.outputs[0], shader.inputs["Emission"])
-        shader.inputs["Emission Strength"].default_value = 1
+        targets = [link.to_socket for link in shader.outputs[0].links]
+        color, metallic = source_of(shader.inputs["Base Color"]), source_of(shader.inputs["Metallic"])
+        diffuse = tree.nodes.new("ShaderNodeBsdfDiffuse")
+        connect(tree, color, diffuse.inputs["Color"])
+        if shader.inputs["Normal"].is_linked:
+            tree.links.new(source_of(shader.inputs["Normal"]), diffuse.inputs["Normal"])
+        dielectric = combined(tree, "ShaderNodeAddShader", diffuse.outputs[0],
+                              principled(tree, shader, (0, 0, 0, 1), 0))
+        surface = combined(tree, "ShaderNodeMixShader", metallic, dielectric,
+                           principled(tree, shader, color, 1))
+        own = tree.nodes.new("ShaderNodeEmission")
+        connect(tree, source_of(shader.inputs["Emission"]), own.inputs["Color"])
+        own.inputs["Strength"].default_value = shader.inputs["Emission Strength"].default_value
+        around = tree.nodes.new("ShaderNodeEmission")
+        connect(tree, color, around.inputs["Color"])
+        around.inputs["Strength"].default_value = ambient
+        for emission in (own, around):
+            surface = combined(tree, "ShaderNodeAddShader", surface, emission.outputs[0])
+        clear = tree.nodes.new("ShaderNodeBsdfTransparent").outputs[0]
+        surface = combined(tree, "ShaderNodeMixShader", opacity(material, tree, shader), clear, surface)
+        for target in targets:
+            tree.links.new(surface, target)
 
 
 def hide_back(material):
@@ -110,30 +172,37 @@ def materials():
 def light(camera_item):
     world = bpy.data.worlds.new("world")
     world.use_nodes = True
-    world.node_tree.nodes["Background"].inputs["Color"].default_value = (0, 0, 0, 1)
+    world.node_tree.nodes["Background"].inputs["Color"].default_value = BACKGROUND
+    for rays in ("diffuse", "glossy", "transmission", "scatter"):
+        setattr(world.cycles_visibility, rays, False)
     bpy.context.scene.world = world
     if any(item.type == "LIGHT" for item in bpy.data.objects):
-        return
-    for material in materials():
-        add_ambient(material)
+        return 0
     sun = bpy.data.lights.new("headlight", "SUN")
     sun.energy, sun.angle = HEADLIGHT, 0
     item = bpy.data.objects.new("headlight", sun)
     item.rotation_euler = camera_item.rotation_euler
     bpy.context.scene.collection.objects.link(item)
+    return AMBIENT
 
 
 def main():
     scene_path, camera_path, out, *rest = sys.argv[sys.argv.index("--") + 1:]
     width, height = map(int, (rest[0] if rest else "640x360").split("x"))
     samples = int(rest[1]) if len(rest) > 1 else 16
+    exposure = float(rest[2]) if len(rest) > 2 else 0
     load(os.path.abspath(scene_path))
     with open(camera_path, encoding="utf-8") as file:
         item = place_camera(json.load(file))
-    light(item)
+    ambient = light(item)
     for material in materials():
+        as_lambert(material, ambient)
         if material.use_backface_culling:
             hide_back(material)
+        material.cycles.sample_as_light = False  # what emits lights nothing else, as in the passes
+    for item in bpy.data.objects:
+        if item.type == "MESH":
+            item.visible_diffuse = item.visible_glossy = item.visible_transmission = False
     for lamp in bpy.data.lights:
         lamp.use_shadow = False
         lamp.cycles.cast_shadow = False
@@ -147,6 +216,7 @@ def main():
     scene.render.resolution_x, scene.render.resolution_y = width, height
     scene.render.resolution_percentage = 100
     scene.view_settings.view_transform = "Standard"
+    scene.view_settings.exposure = exposure
     scene.render.image_settings.file_format = "PNG"
     scene.render.image_settings.color_mode = "RGB"
     scene.render.filepath = os.path.abspath(out)

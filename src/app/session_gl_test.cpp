@@ -124,7 +124,7 @@ TEST_F(SessionTest, TheHeadlightGoesWithTheChosenCamera) {
     return (folder_ / name).string();
   };
   settings_.scene = write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1 3 4\n");
-  settings_.sets = {"ToneMap.operator=linear"};
+  settings_.sets = {"ToneMap.operator=linear", "GBuffer.backFaces=true"};
   settings_.camera =
       write("back.json", R"({"position": [0, 0, -1], "target": [0, 0, 0], "fovY": 30})");
   const auto fromCamera = readImage(render("camera.png"));
