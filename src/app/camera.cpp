@@ -3,36 +3,29 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
-#include "app/json_reader.hpp"
 #include "core/file.hpp"
 #include "core/text.hpp"
+#include "scene/json_reader.hpp"
 
 namespace lucerna::app {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr std::uint64_t kMaxFileBytes = 64ull << 20;
-constexpr double kLargest = 1e9;  // s or m: beyond it, floats lose the centimetres anyway
+constexpr float kLargest = 1e9f;  // s or m: beyond it, floats lose the centimetres anyway
 
-Result<CameraPose> poseFromJson(const Json& json, const std::string& place,
-                                std::initializer_list<const char*> keys) {
+CameraPose readPose(const scene::JsonValue& json) {
   CameraPose pose;
-  JsonReader reader(json, place);
-  reader.allowOnly(keys);
-  reader.require({"position", "target"});
-  pose.position = reader.vector("position", pose.position);
-  pose.target = reader.vector("target", pose.target);
-  pose.up = reader.vector("up", pose.up);
-  pose.fovY = glm::radians(reader.number("fovY", glm::degrees(pose.fovY), 0.1, 175));
-  pose.near = reader.number("near", 0.f, 0, kLargest);
-  pose.far = reader.number("far", 0.f, 0, kLargest);
-  LUCERNA_TRY_VOID(reader.status());
-  if (pose.position == pose.target)
-    return error(ErrorKind::Input,
-                 "{}: position and target are the same point; they must differ for a direction",
-                 place);
+  json.require({"position", "target"});
+  json.read("position", pose.position);
+  json.read("target", pose.target);
+  json.read("up", pose.up);
+  json.readDegrees("fovY", pose.fovY, {0.1f, 175.f});
+  json.read("near", pose.near, {0.f, kLargest, "m"});
+  json.read("far", pose.far, {0.f, kLargest, "m"});
+  if (json.has("position") && pose.position == pose.target)
+    json.fault("position and target are the same point; they must differ for a direction");
   return pose;
 }
 
@@ -56,7 +49,8 @@ T hermite(const std::vector<double>& t, const std::vector<T>& p, std::size_t i, 
 mat4 worldFromCamera(const CameraPose& pose) {
   const vec3 back = glm::normalize(pose.position - pose.target);
   vec3 right = glm::cross(pose.up, back);
-  if (glm::length(right) < 1e-5f * glm::length(pose.up))
+  // Also where `up` vanishes, as it may between two keyframes.
+  if (glm::length(right) <= std::max(1e-5f * glm::length(pose.up), 1e-6f))
     right = glm::cross(std::abs(back.y) > 0.5f ? vec3(0, 0, -1) : vec3(0, 1, 0), back);
   right = glm::normalize(right);
   return mat4(vec4(right, 0), vec4(glm::cross(back, right), 0), vec4(back, 0),
@@ -65,9 +59,16 @@ mat4 worldFromCamera(const CameraPose& pose) {
 
 Result<CameraPose> readCamera(const std::filesystem::path& path) {
   LUCERNA_TRY(text, readText(path, kMaxFileBytes));
-  LUCERNA_TRY(document, parseDocument(text, path.string(), "camera/1"));
-  return poseFromJson(document, path.string(),
-                      {"lucerna", "position", "target", "up", "fovY", "near", "far"});
+  LUCERNA_TRY(document, scene::parseJson(text, path.string()));
+  scene::JsonFaults faults(path.string(), text);
+  const scene::JsonValue root(document, "", faults);
+  CameraPose pose;
+  if (root.object({"lucerna", "position", "target", "up", "fovY", "near", "far"})) {
+    if (root.has("lucerna")) root.format("camera/1");
+    pose = readPose(root);
+  }
+  LUCERNA_TRY_VOID(faults.status());
+  return pose;
 }
 
 Result<CameraPath> CameraPath::read(const std::filesystem::path& path) {
@@ -76,29 +77,32 @@ Result<CameraPath> CameraPath::read(const std::filesystem::path& path) {
 }
 
 Result<CameraPath> CameraPath::fromJson(const std::string& text, const std::string& name) {
-  LUCERNA_TRY(document, parseDocument(text, name, "camera-path/1"));
-  JsonReader reader(document, name);
-  reader.allowOnly({"lucerna", "keyframes"});
-  LUCERNA_TRY_VOID(reader.status());
-  const Json keyframes = document.value("keyframes", Json());
-  if (!keyframes.is_array() || keyframes.empty())
-    return error(ErrorKind::Input, "{}: \"keyframes\" must be a list with at least one keyframe",
-                 name);
+  LUCERNA_TRY(document, scene::parseJson(text, name));
+  scene::JsonFaults faults(name, text);
+  const scene::JsonValue root(document, "", faults);
   CameraPath path;
-  for (std::size_t i = 0; i < keyframes.size(); ++i) {
-    const std::string place = fmt::format("{}, keyframe {}", name, i + 1);
-    LUCERNA_TRY(pose,
-                poseFromJson(keyframes[i], place, {"time", "position", "target", "up", "fovY"}));
-    JsonReader time(keyframes[i], place);
-    time.require({"time"});
-    const double seconds = static_cast<double>(time.number("time", 0.f, -kLargest, kLargest));
-    LUCERNA_TRY_VOID(time.status());
-    if (i > 0 && seconds <= path.keys_.back().time)
-      return error(ErrorKind::Input, "{}: its time {} does not come after the one before ({})",
-                   place, seconds, path.keys_.back().time);
-    path.keys_.push_back({seconds, pose});
+  if (root.object({"lucerna", "keyframes"})) {
+    if (root.has("lucerna")) root.format("camera-path/1");
+    path.readKeyframes(root);
   }
+  LUCERNA_TRY_VOID(faults.status());
   return path;
+}
+
+void CameraPath::readKeyframes(const scene::JsonValue& root) {
+  root.require({"keyframes"});
+  if (!root.has("keyframes")) return;
+  for (const scene::JsonValue& entry : root.at("keyframes").elements()) {
+    if (!entry.object({"time", "position", "target", "up", "fovY"})) continue;
+    entry.require({"time"});
+    float time = 0.f;
+    const bool timed = entry.read("time", time, {-kLargest, kLargest, "s"});
+    if (timed && !keys_.empty() && time <= keys_.back().time)
+      entry.fault(fmt::format("its time {} does not come after the one before ({})", time,
+                              keys_.back().time));
+    keys_.push_back({time, readPose(entry)});
+  }
+  if (keys_.empty()) root.at("keyframes").wrong("a list with at least one keyframe");
 }
 
 CameraPose CameraPath::at(double time) const {

@@ -9,6 +9,10 @@
 #include "core/result.hpp"
 #include "scene/scene.hpp"
 
+namespace lucerna::scene {
+class JsonValue;
+}
+
 namespace lucerna::app {
 
 // A camera that stands by itself.
@@ -42,6 +46,8 @@ class CameraPath {
     double time = 0;  // s, rising
     CameraPose pose;
   };
+  void readKeyframes(const scene::JsonValue& root);
+
   std::vector<Keyframe> keys_;  // at least one
 };
 

@@ -51,20 +51,20 @@ TEST(CameraPath, FaultsNameTheKeyframe) {
     const auto path = CameraPath::fromJson(text, "path.json");
     return path ? std::string("it succeeded") : path.error().message;
   };
-  EXPECT_THAT(faultOf("{"), HasSubstr("path.json: parse error"));
+  EXPECT_THAT(faultOf("{"), HasSubstr("path.json: is no JSON: parse error"));
   EXPECT_THAT(faultOf("[]"), HasSubstr("wanted an object"));
   EXPECT_THAT(faultOf(R"({"lucerna": "scene/1", "keyframes": []})"), HasSubstr("camera-path/1"));
   EXPECT_THAT(faultOf(R"({"keyframes": []})"), HasSubstr("at least one"));
   EXPECT_THAT(
       faultOf(R"({"keyframes": [{"time": 0, "position": [0, 0, 0], "target": [0, 0, 0]}]})"),
-      HasSubstr("keyframe 1: position and target"));
+      HasSubstr("/keyframes/0: position and target"));
   EXPECT_THAT(faultOf(R"({"keyframes": [{"time": 0, "position": [0, 0], "target": [0, 0, 1]}]})"),
-              HasSubstr("three numbers"));
+              HasSubstr("/keyframes/0/position: found [0,0], wanted a list of 3 numbers"));
   EXPECT_THAT(faultOf(R"({"keyframes": [{"time": 0, "positon": [0, 0, 0], "target": [0, 0, 1]}]})"),
               HasSubstr("did you mean 'position'"));
   EXPECT_THAT(faultOf(R"({"keyframes": [{"time": 1, "position": [0, 0, 0], "target": [0, 0, 1]},
                                         {"time": 1, "position": [0, 0, 0], "target": [0, 0, 1]}]})"),
-              HasSubstr("keyframe 2: its time 1 does not come after"));
+              HasSubstr("path.json:2: /keyframes/1: its time 1 does not come after"));
   EXPECT_THAT(
       faultOf(R"({"keyframes": [{"time": 1e999, "position": [0, 0, 0], "target": [0, 0, 1]}]})"),
       HasSubstr("path.json"));

@@ -12,6 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr std::size_t kShownCharacters = 60;
+constexpr int kMaxDepth = 64;  // of nested arrays and objects: what prints them recurses
 
 // ~ and / of a key as a JSON pointer writes them (RFC 6901).
 std::string escaped(std::string_view key) {
@@ -95,6 +96,27 @@ bool enter(Scanner& scanner, const std::string& step) {
 
 }  // namespace
 
+Result<json> parseJson(const std::string& text, const std::string& file) {
+  bool tooDeep = false;
+  const auto watchDepth = [&](int depth, json::parse_event_t, json&) {
+    tooDeep = tooDeep || depth > kMaxDepth;
+    return !tooDeep;
+  };
+  try {
+    json root = json::parse(text, watchDepth, /*allow_exceptions=*/true, /*ignore_comments=*/true);
+    if (tooDeep)
+      return error(ErrorKind::Input, "{}: more than {} nested arrays and objects; wanted at most {}",
+                   file, kMaxDepth, kMaxDepth);
+    return root;
+  } catch (const json::exception& fault) {
+    // "[json.exception.parse_error.101] parse error at line ..."
+    const std::string what = fault.what();
+    const std::size_t tag = what.find("] ");
+    return error(ErrorKind::Input, "{}: is no JSON: {}", file,
+                 tag == std::string::npos ? what : what.substr(tag + 2));
+  }
+}
+
 int lineOf(const std::string& text, const std::string& pointer) {
   Scanner scanner(text);
   std::vector<std::string> steps = split(pointer, '/');
@@ -137,6 +159,18 @@ bool JsonValue::object(std::initializer_list<const char*> known) const {
       value.fault(fmt::format("unknown key '{}'{}; wanted one of {}", key, didYouMean(key, names),
                               join(names)));
   return true;
+}
+
+void JsonValue::require(std::initializer_list<const char*> keys) const {
+  for (const char* key : keys)
+    if (!has(key)) fault(fmt::format("'{}' is missing", key));
+}
+
+void JsonValue::format(const std::string& format) const {
+  if (!has("lucerna"))
+    return fault(fmt::format("found no \"lucerna\", wanted \"lucerna\": \"{}\"", format));
+  std::string found;
+  if (read("lucerna", found) && found != format) at("lucerna").wrong(fmt::format("\"{}\"", format));
 }
 
 bool JsonValue::isNumber() const {

@@ -27,6 +27,10 @@ class JsonFaults {
   std::vector<std::string> lines_;
 };
 
+// Parses a file's text; // and /* */ comments are skipped. ErrorKind::Input names the file, line
+// and column.
+Result<nlohmann::json> parseJson(const std::string& text, const std::string& file);
+
 // 1-based line where the value of `pointer` starts in the JSON text, which must be well-formed.
 int lineOf(const std::string& text, const std::string& pointer);
 
@@ -52,6 +56,10 @@ class JsonValue {
 
   // Reports and returns false if this is no object; reports keys that are not among `known`.
   bool object(std::initializer_list<const char*> known) const;
+  // Reports the keys that are not there.
+  void require(std::initializer_list<const char*> keys) const;
+  // Reports a "lucerna" that is not `format` ("scene/1").
+  void format(const std::string& format) const;
   bool isNumber() const;
   bool has(const char* key) const;
   JsonValue at(const char* key) const;  // must be there

@@ -18,14 +18,6 @@ constexpr const char* kFormat = "scene/1";
 constexpr int kMaxIncludes = 1000;
 constexpr std::size_t kMaxDepth = 32;
 
-void checkFormat(const JsonValue& root) {
-  if (!root.has("lucerna"))
-    return root.fault(fmt::format("found no \"lucerna\", wanted \"lucerna\": \"{}\"", kFormat));
-  std::string format;
-  if (root.read("lucerna", format) && format != kFormat)
-    root.at("lucerna").wrong(fmt::format("\"{}\"", kFormat));
-}
-
 // "rotation": three Euler angles, about x first, then y, then z, in degrees; or a quaternion x y z
 // w.
 void readRotation(const JsonValue& include, Node& node) {
@@ -102,7 +94,7 @@ void apply(const JsonValue& root, const fs::path& folder, Scene& scene, IncludeC
   if (!root.object({"$schema", "lucerna", "include", "materials", "lights", "lightSettings",
                     "cameras", "background", "ambient", "exposure"}))
     return;
-  checkFormat(root);
+  root.format(kFormat);
   if (root.has("include"))
     for (const JsonValue& entry : root.at("include").elements())
       include(entry, folder, scene, chain);
@@ -119,12 +111,7 @@ void apply(const JsonValue& root, const fs::path& folder, Scene& scene, IncludeC
 
 Status addSceneJson(Scene& scene, const fs::path& path, IncludeChain& chain) {
   LUCERNA_TRY(text, readText(path));
-  nlohmann::json document;
-  try {
-    document = nlohmann::json::parse(text, nullptr, true, /*ignore_comments=*/true);
-  } catch (const nlohmann::json::exception& fault) {
-    return error(ErrorKind::Input, "{}: is no JSON: {}", path.string(), fault.what());
-  }
+  LUCERNA_TRY(document, parseJson(text, path.string()));
   LUCERNA_TRY_VOID(enter(path, chain));
   JsonFaults faults(path.string(), text);
   apply(JsonValue(document, "", faults), path.parent_path(), scene, chain);
