@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <memory>
 
+#include "graph/pass_info.hpp"
+
 namespace lucerna::graph {
 
 // The port type of typed data.

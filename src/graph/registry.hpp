@@ -28,7 +28,7 @@ class Registry {
   void add(std::unique_ptr<PassType> type);
   void addResource(ResourceDescription resource);
   template <PortData T>
-  void addResource(std::string name, std::string help, bool perView = false);
+  void addResource(const std::string& name, const std::string& help, bool perView = false);
 
   const PassType* find(std::string_view type) const;
   std::vector<std::string> typeNames() const;  // in the order of registration
@@ -41,11 +41,8 @@ class Registry {
 };
 
 template <PortData T>
-void Registry::addResource(std::string name, std::string help, bool perView) {
-  addResource({.name = std::move(name),
-               .type = dataPortType<T>(),
-               .help = std::move(help),
-               .perView = perView});
+void Registry::addResource(const std::string& name, const std::string& help, bool perView) {
+  addResource({.name = name, .type = dataPortType<T>(), .help = help, .perView = perView});
 }
 
 }  // namespace lucerna::graph

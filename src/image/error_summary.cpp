@@ -38,8 +38,10 @@ float quantile(std::span<const float> values, std::span<const Bucket> buckets, d
   for (const float value : values)
     if (bucketOf(value) == bucket) inside.push_back(value);
   std::sort(inside.begin(), inside.end());
-  for (const float value : inside)
-    if ((before += weight(value)) >= wanted) return value;
+  for (const float value : inside) {
+    before += weight(value);
+    if (before >= wanted) return value;
+  }
   return inside.empty() ? 0.f : inside.back();
 }
 

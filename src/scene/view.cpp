@@ -34,9 +34,7 @@ void chooseDepth(View& view, const Camera& camera, const Aabb& box) {
   const DepthRange range = depthRange(view.viewFromWorld, box);
   const float size = std::max(box.diagonal(), 1e-3f);
   view.far = camera.far > 0.f ? camera.far : std::max(1.01f * range.far, 0.01f * size);
-  if (camera.orthographic) {
-    view.near = camera.near;
-  } else if (camera.near > 0.f) {
+  if (camera.orthographic || camera.near > 0.f) {
     view.near = camera.near;
   } else {
     const float close = 1e-4f * std::min(size, std::isinf(view.far) ? size : view.far);

@@ -51,7 +51,7 @@ void OptionReader::fault(const std::string& key, const std::string& found,
   faults_.push_back(fmt::format("{}: {}: found {}, wanted {}", spec_, key, found, wanted));
 }
 
-void OptionReader::number(std::string key, float& target, float low, float high) {
+void OptionReader::number(const std::string& key, float& target, float low, float high) {
   if (const auto text = take(key)) {
     if (const auto value = parseWithin(*text, low, high))
       target = *value;
@@ -60,7 +60,7 @@ void OptionReader::number(std::string key, float& target, float low, float high)
   }
 }
 
-void OptionReader::integer(std::string key, std::uint32_t& target, std::uint32_t low,
+void OptionReader::integer(const std::string& key, std::uint32_t& target, std::uint32_t low,
                            std::uint32_t high) {
   if (const auto text = take(key)) {
     const auto value = parse<std::uint32_t>(*text);
@@ -71,13 +71,13 @@ void OptionReader::integer(std::string key, std::uint32_t& target, std::uint32_t
   }
 }
 
-void OptionReader::flag(std::string key, bool& target) {
+void OptionReader::flag(const std::string& key, bool& target) {
   std::uint32_t value = target;
-  integer(std::move(key), value, 0, 1);
+  integer(key, value, 0, 1);
   target = value != 0;
 }
 
-void OptionReader::choice(std::string key, int& target, std::span<const std::string> words) {
+void OptionReader::choice(const std::string& key, int& target, std::span<const std::string> words) {
   if (const auto text = take(key)) {
     for (std::size_t i = 0; i < words.size(); ++i) {
       if (words[i] != *text) continue;
@@ -88,7 +88,7 @@ void OptionReader::choice(std::string key, int& target, std::span<const std::str
   }
 }
 
-void OptionReader::pair(std::string key, std::optional<vec2>& target, vec2 low, vec2 high) {
+void OptionReader::pair(const std::string& key, std::optional<vec2>& target, vec2 low, vec2 high) {
   if (const auto text = take(key)) {
     const std::vector<std::string> parts = split(*text, ',');
     if (parts.size() == 2) {

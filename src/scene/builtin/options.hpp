@@ -19,13 +19,14 @@ class OptionReader {
  public:
   OptionReader(std::string spec, std::string_view query);
 
-  void number(std::string key, float& target, float low, float high);
-  void integer(std::string key, std::uint32_t& target, std::uint32_t low, std::uint32_t high);
-  void flag(std::string key, bool& target);
+  void number(const std::string& key, float& target, float low, float high);
+  void integer(const std::string& key, std::uint32_t& target, std::uint32_t low,
+               std::uint32_t high);
+  void flag(const std::string& key, bool& target);
   // One of the words; target becomes its index.
-  void choice(std::string key, int& target, std::span<const std::string> words);
+  void choice(const std::string& key, int& target, std::span<const std::string> words);
   // Two numbers with a comma, each within [low, high].
-  void pair(std::string key, std::optional<vec2>& target, vec2 low, vec2 high);
+  void pair(const std::string& key, std::optional<vec2>& target, vec2 low, vec2 high);
   Status finish();
 
  private:

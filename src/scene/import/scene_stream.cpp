@@ -129,6 +129,7 @@ class Reader {
 };
 
 // Each struct once, for both directions.
+// NOLINTBEGIN(readability-identifier-naming): named as the functions they are called like
 const auto textureFields = [](auto& a, auto& t) {
   a(t.path), a(t.bytes), a(t.alphaPath), a(t.bump);
   a.choice(t.wrapS, 3), a.choice(t.wrapT, 3);
@@ -189,6 +190,7 @@ const auto fields = [](auto& a, auto& imported) {
   a.list(scene.warnings, textFields);
   a(scene.ambient);
 };
+// NOLINTEND(readability-identifier-naming)
 
 }  // namespace
 
