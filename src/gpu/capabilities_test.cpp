@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/file.hpp"
+#include "core/log.hpp"
 #include "gpu/workarounds.hpp"
 
 namespace lucerna::gpu {
@@ -73,6 +74,12 @@ TEST(Workarounds, FollowTheDriverAndCanBeSwitchedOff) {
               ElementsAre("keep-discarded-layers", "no-anisotropy", "timers-on-cpu-clock"));
   EXPECT_THAT(workaroundsFor(caps, "no-anisotropy,keep-discarded-layers"),
               ElementsAre("timers-on-cpu-clock"));
+  const int warnings = log::warningCount();
+  caps.softwareRasterizer = false;
+  workaroundsFor(caps, "timers-on-cpu-clock");  // known, though not needed here
+  EXPECT_EQ(log::warningCount(), warnings);
+  workaroundsFor(caps, "timers-on-gpu-clock");
+  EXPECT_EQ(log::warningCount(), warnings + 1);
 }
 
 TEST(Capabilities, Es3FileIsReadable) {

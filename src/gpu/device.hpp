@@ -170,7 +170,7 @@ class Device {
   VertexInput createVertexInput(const VertexInputDesc& desc, std::string label);
 
   // Compiles, or returns the cached one. A failure is kept for takeErrors() and the program is
-  // unusable (or stays as it was, on reload).
+  // unusable (or stays as it was, on reload); asking for it again reports it again.
   ProgramPtr program(const ProgramDesc& desc);
   ShaderSources& shaderSources();
   // Recompiles programs whose files changed; returns how many it tried.

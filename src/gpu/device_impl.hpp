@@ -31,6 +31,7 @@ struct Program::Reflection {
   std::map<std::string, Uniform, std::less<>> uniforms;
   std::vector<Slot> samplers, images, uniformBlocks, storageBlocks;
   std::vector<std::string> files;  // all that went in, for reload
+  std::optional<Error> fault;      // why it never compiled
 };
 
 struct FramebufferKey {

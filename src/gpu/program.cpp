@@ -293,6 +293,7 @@ void Device::rebuild(Program& program) {
   program.reflection_->files.assign(files.begin(), files.end());
   if (!built) {
     impl_->errors.push_back(built.error());
+    if (!program.usable()) program.reflection_->fault = built.error();
     return;
   }
   if (program.id_ == 0) ++impl_->objects.programs;
@@ -317,6 +318,10 @@ ProgramPtr Device::program(const ProgramDesc& desc) {
     entry->desc_ = desc;
     entry->device_ = this;
     rebuild(*entry);
+  } else if (const auto& fault = entry->reflection_->fault) {
+    // Who asks for it only now must hear of it too, but once in each batch of errors is enough.
+    if (std::ranges::find(impl_->errors, fault->message, &Error::message) == impl_->errors.end())
+      impl_->errors.push_back(*fault);
   }
   return entry;
 }

@@ -176,6 +176,8 @@ TEST_F(ProgramGlTest, FaultsNameFileAndLineAfterIncludes) {
     const std::vector<Error> errors = device().takeErrors();
     EXPECT_EQ(errors.size(), 1u);
     if (errors.empty()) return std::string();
+    EXPECT_EQ(device().program(program->desc()), program);  // asked later, reported again
+    EXPECT_EQ(device().takeErrors().size(), 1u);
     EXPECT_EQ(errors[0].kind, ErrorKind::Pipeline);
     EXPECT_THAT(errors[0].message, HasSubstr("TAPS=4"));
     return errors[0].message;

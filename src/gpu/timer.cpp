@@ -8,7 +8,7 @@ namespace lucerna::gpu {
 using Clock = std::chrono::steady_clock;
 
 bool Device::timersUseCpuClock() const {
-  return impl_->capabilities.softwareRasterizer;
+  return impl_->uses(kTimersOnCpuClock);
 }
 
 void Device::beginTimer(std::string_view name) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/log.hpp"
 #include "core/text.hpp"
 
 namespace lucerna::gpu {
@@ -12,6 +13,11 @@ std::vector<std::string> workaroundsFor(const Capabilities& capabilities,
   if (capabilities.softwareRasterizer)
     names.insert(names.end(), {std::string(kNoAnisotropy), std::string(kTimersOnCpuClock)});
   const std::vector<std::string> off = split(disabled, ',');
+  constexpr std::string_view kAll[] = {kKeepDiscardedLayers, kNoAnisotropy, kTimersOnCpuClock};
+  for (const std::string& name : off)
+    if (!name.empty() && std::ranges::count(kAll, name) == 0)
+      log::warning("LUCERNA_NO_WORKAROUNDS: found '{}', wanted some of {}", name,
+                   fmt::join(kAll, ", "));
   std::erase_if(names, [&](const std::string& name) { return std::ranges::count(off, name) > 0; });
   return names;
 }

@@ -19,6 +19,7 @@ inline constexpr std::string_view kNoAnisotropy = "no-anisotropy";
 inline constexpr std::string_view kKeepDiscardedLayers = "keep-discarded-layers";
 
 // Those that the driver needs, less the comma-separated ones in `disabled`, in alphabetical order.
+// Warns of names there that no workaround has.
 std::vector<std::string> workaroundsFor(const Capabilities& capabilities,
                                         std::string_view disabled);
 

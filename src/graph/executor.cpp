@@ -126,6 +126,7 @@ Status Executor::Impl::setPipeline(const Pipeline& next, uvec2 size,
     storage.prepare(schedule);
     makeSteps();
     status = takeShaderErrors();
+    if (!status) rows.clear();  // a kept instance would not ask for its broken program again
   }
   if (!status) {
     plan = {};
@@ -304,8 +305,8 @@ void Executor::Impl::runStep(std::size_t index, PassContext& context) {
   };
   if (!profiling) return work();
   const gpu::Counters before = device.counters();
-  const auto begin = Clock::now();
   device.beginTimer(step.name);
+  const auto begin = Clock::now();  // after the timer's start, which may finish the pipe
   work();
   const double cpuMs = msSince(begin);
   device.endTimer();

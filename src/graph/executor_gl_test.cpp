@@ -362,10 +362,12 @@ TEST_F(ExecutorGlTest, AFaultyPipelineRendersNothingUntilTheNextSoundOne) {
 }
 
 TEST_F(ExecutorGlTest, AShaderThatDoesNotCompileIsAPipelineError) {
-  const Status status = executor_->setPipeline(pipelineOf({"Broken"}, "Broken.a"), {8, 4});
-  ASSERT_FALSE(status);
-  EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
-  EXPECT_THAT(status.error().message, HasSubstr("no/such.frag"));
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const Status status = executor_->setPipeline(pipelineOf({"Broken"}, "Broken.a"), {8, 4});
+    ASSERT_FALSE(status) << attempt;
+    EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
+    EXPECT_THAT(status.error().message, HasSubstr("no/such.frag"));
+  }
 }
 
 TEST_F(ExecutorGlTest, TexturesLargerThanTheDriversAreAnError) {
