@@ -209,6 +209,16 @@ void MaterialReader::loadImages() {
   for (std::size_t i = 0; i < tickets_.size(); ++i) {
     context_.scene.textures[i].image = images[tickets_[i]];
   }
+  // Where a texture is data and no picture, the stand-in would be read as wild normals, metal and
+  // shadow: the material goes without.
+  for (Material& material : context_.scene.materials) {
+    for (TextureSlot* slot : {&material.normalTexture, &material.metallicRoughnessTexture,
+                              &material.occlusionTexture}) {
+      if (slot->used() && context_.scene.textures[slot->texture].image == checkerboard()) {
+        *slot = {};
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -35,6 +35,16 @@ std::vector<Vector> packed(const std::vector<float>& floats) {
   return vectors;
 }
 
+// One element for each index; nothing if the mesh has no such stream.
+template <typename T>
+std::vector<T> unwelded(const std::vector<T>& stream, const std::vector<std::uint32_t>& indices) {
+  std::vector<T> corners;
+  if (stream.empty()) return corners;
+  corners.reserve(indices.size());
+  for (const std::uint32_t index : indices) corners.push_back(stream[index]);
+  return corners;
+}
+
 bool finite(const vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -57,6 +67,7 @@ class PrimitiveReader {
   void keepUsedVertices();
   void readPositions();
   void readNormals();
+  void makeFlat();
   void readTangents();
   void readTexCoords();
   void readColors();
@@ -190,6 +201,17 @@ void PrimitiveReader::readNormals() {
   }
 }
 
+// glTF 2.0, 3.7.2.1: without normals each triangle has its own, so each corner is a vertex.
+void PrimitiveReader::makeFlat() {
+  auto& indices = mesh_.indices;
+  context_.document.spend(indices.size() * (sizeof(vec3) * 2 + sizeof(vec2)), primitive_);
+  mesh_.positions = unwelded(mesh_.positions, indices);
+  for (auto& texCoords : mesh_.texCoords) texCoords = unwelded(texCoords, indices);
+  mesh_.colors = unwelded(mesh_.colors, indices);
+  std::iota(indices.begin(), indices.end(), 0u);
+  makeNormals(mesh_);
+}
+
 void PrimitiveReader::readTangents() {
   const Accessor* accessor = attribute("TANGENT");
   if (!accessor) return;
@@ -261,9 +283,10 @@ std::optional<Mesh> PrimitiveReader::read() {
   readPositions();
   if (mesh_.indices.empty()) return std::nullopt;
   readNormals();
-  readTangents();
+  if (!mesh_.normals.empty()) readTangents();  // else they are to be ignored
   readTexCoords();
   readColors();
+  if (mesh_.normals.empty()) makeFlat();
   if (!primitive_.elements("targets").empty()) {
     warn("has morph targets, which are not applied: drawn in its basic shape");
   }

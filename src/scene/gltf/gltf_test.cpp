@@ -51,6 +51,8 @@ class GltfFile : public testing::Test {
   int floats(const std::vector<float>& values, const char* type, int components) {
     return accessor(values, 5126, type, components);
   }
+  // Four equal normals, so that the square keeps its vertices.
+  int squareNormals() { return floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3); }
   // A unit square of four corners in the first primitive.
   json& square() {
     json& primitive = root_["meshes"][0]["primitives"][0];
@@ -93,6 +95,7 @@ class GltfFile : public testing::Test {
 TEST_F(GltfFile, StripsAndFansBecomeTriangleListsThatFaceForward) {
   json& primitive = square();
   primitive["indices"] = accessor<std::uint8_t>({0, 1, 3, 2}, 5121, "SCALAR", 1);
+  primitive["attributes"]["NORMAL"] = squareNormals();
   primitive["mode"] = 5;
   auto scene = read();
   ASSERT_TRUE(scene) << scene.error().message;
@@ -238,6 +241,9 @@ TEST_F(GltfFile, MaterialsKeepEveryField) {
   EXPECT_TRUE(scene->textures[0].nearest);
   ASSERT_NE(scene->textures[0].image, nullptr);
   EXPECT_EQ(scene->textures[0].image->width(), 64);  // the checkerboard
+  EXPECT_TRUE(m.albedoTexture.used());
+  EXPECT_FALSE(m.normalTexture.used());  // data: without, rather than the checkerboard
+  EXPECT_FALSE(m.occlusionTexture.used());
   EXPECT_THAT(scene->warnings, Contains(HasSubstr("texture missing.png is replaced")));
 }
 
@@ -335,10 +341,30 @@ TEST_F(GltfFile, ZeroNormalsTakeTheDirectionOfTheirTriangles) {
               testing::ElementsAre(vec3(0, 0, 1), vec3(1, 0, 0), vec3(0, 0, 1), vec3(0, 1, 0)));
 }
 
+TEST_F(GltfFile, WithoutNormalsTrianglesAreFlatAndTangentsIgnored) {
+  json& primitive = root_["meshes"][0]["primitives"][0];
+  // Two triangles folded along their common edge.
+  primitive["attributes"]["POSITION"] = floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, "VEC3", 3);
+  primitive["attributes"]["TANGENT"] =
+      floats({1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1}, "VEC4", 4);
+  primitive["attributes"]["TEXCOORD_0"] = floats({0, 0, 1, 0, 0, 1, 2, 2}, "VEC2", 2);
+  primitive["indices"] = accessor<std::uint16_t>({0, 1, 2, 0, 3, 1}, 5123, "SCALAR", 1);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Mesh& mesh = scene->meshes[0];
+  const vec3 z(0, 0, 1), y(0, 1, 0);
+  EXPECT_THAT(mesh.normals, testing::ElementsAre(z, z, z, y, y, y));
+  EXPECT_THAT(mesh.indices, testing::ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_EQ(mesh.positions[4], vec3(0, 0, 1));
+  EXPECT_EQ(mesh.texCoords[0][4], vec2(2, 2));
+  EXPECT_THAT(mesh.tangents, testing::IsEmpty());
+}
+
 TEST_F(GltfFile, TrianglesAtInfinityAreDropped) {
   json& primitive = indexedSquare();
   primitive["attributes"]["POSITION"] =
       floats({0, 0, 0, INFINITY, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
+  primitive["attributes"]["NORMAL"] = squareNormals();
   const auto scene = read();
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(0, 2, 3));
