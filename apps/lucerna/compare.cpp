@@ -1,5 +1,8 @@
 // lucerna compare REFERENCE TEST
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -42,10 +45,37 @@ Result<std::optional<Image>> readMask(const Options& options, const Image& refer
   if (options.mask.empty()) return std::optional<Image>();
   LUCERNA_TRY(mask, readImage(options.mask));
   LUCERNA_TRY_VOID(checkSize(mask, options.mask, reference, options.reference));
-  return std::optional<Image>(converted(mask, ComponentType::U8, 1));
+  Image result = converted(mask, ComponentType::U8, 1);
+  if (std::ranges::all_of(result.as<std::uint8_t>(), [](std::uint8_t v) { return v == 0; }))
+    return error(ErrorKind::Input,
+                 "{}: the mask is black everywhere, so no pixel would be compared", options.mask);
+  return std::optional<Image>(std::move(result));
+}
+
+// The error map must not replace what is compared.
+Status checkHeatmap(const Options& options) {
+  for (const std::string& input : {options.reference, options.test, options.mask}) {
+    std::error_code missing;
+    if (!options.heatmap.empty() && std::filesystem::equivalent(options.heatmap, input, missing))
+      return error(ErrorKind::Usage,
+                   "--heatmap: '{}' is one of the pictures compared; name another",
+                   options.heatmap);
+  }
+  return {};
+}
+
+// CLI::Range lets NaN through.
+Status checkNumbers(const Options& options) {
+  if (std::isfinite(options.flip.pixelsPerDegree) && std::isfinite(options.failAbove.value_or(0)))
+    return {};
+  return error(ErrorKind::Usage,
+               "--pixels-per-degree, --fail-above: found nan, wanted a number in the range that "
+               "`lucerna compare --help` shows");
 }
 
 Result<int> compare(const Options& options, bool json) {
+  LUCERNA_TRY_VOID(checkNumbers(options));
+  LUCERNA_TRY_VOID(checkHeatmap(options));
   LUCERNA_TRY(referenceFile, readImage(options.reference));
   LUCERNA_TRY(testFile, readImage(options.test));
   LUCERNA_TRY_VOID(checkSize(testFile, options.test, referenceFile, options.reference));

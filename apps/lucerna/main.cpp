@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstring>
+#include <exception>
 
 #include "command_line.hpp"
 #include "core/log.hpp"
@@ -67,8 +68,15 @@ int run(int count, char** words) {
                                     : log::Level::Info);
   Progress::setVisible(!line.talk.quiet);
   Progress::catchInterrupt();
-  const Result<int> result = line.action();
-  return result ? *result : fail(result.error(), line.talk.json);
+  try {
+    const Result<int> result = line.action();
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return fail({ErrorKind::Failed, "standard output cannot be written: is the disk full?"},
+                  false);
+    return result ? *result : fail(result.error(), line.talk.json);
+  } catch (const std::exception& fault) {  // out of memory, mostly: nothing here throws by design
+    return fail({ErrorKind::Failed, fault.what()}, line.talk.json);
+  }
 }
 
 }  // namespace

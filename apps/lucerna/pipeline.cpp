@@ -1,5 +1,6 @@
 // lucerna pipeline check|print|graph
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
@@ -59,8 +60,10 @@ Result<int> check(const Options& options, bool json) {
   }
   if (!validation.ok()) return error(ErrorKind::Pipeline, "{}", validation.text());
   for (const graph::Fault& fault : validation.faults) log::warning("{}", fault.text());
-  printText(fmt::format("{}: valid, {} of {} passes run\n", checked.pipeline.name,
-                        validation.plan->rows.size(), checked.pipeline.passes.size()));
+  const auto running =
+      std::ranges::count(validation.plan->rows, false, &graph::ResolvedRow::culled);
+  printText(fmt::format("{}: valid, {} of {} passes run\n", checked.pipeline.name, running,
+                        checked.pipeline.passes.size()));
   return 0;
 }
 

@@ -34,7 +34,8 @@ Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
                                         const RenderSettings& settings) {
   LUCERNA_TRY(name, FrameName::parse(output.path, settings.frames));
   const std::filesystem::path folder = name.at(0).parent_path();
-  if (!folder.empty() && !std::filesystem::is_directory(folder))
+  std::error_code noFolder;
+  if (!folder.empty() && !std::filesystem::is_directory(folder, noFolder))
     return error(ErrorKind::Usage, "-o: the folder '{}' does not exist; make it first",
                  folder.string());
   FrameWriter writer(std::move(name));

@@ -92,7 +92,13 @@ std::string ProfileLog::table() const {
 
 Status ProfileLog::checkPath(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".csv" || extension == ".json") return {};
+  if (extension == ".csv" || extension == ".json") {
+    std::error_code noFolder;
+    const auto folder = std::filesystem::path(path).parent_path();
+    if (folder.empty() || std::filesystem::is_directory(folder, noFolder)) return {};
+    return error(ErrorKind::Usage, "--profile: the folder '{}' does not exist; make it first",
+                 folder.string());
+  }
   return error(ErrorKind::Usage, "--profile: '{}' ends in '{}'; wanted .csv or .json", path,
                extension);
 }

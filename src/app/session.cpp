@@ -39,13 +39,13 @@ Status takeScene(Session& session, Result<scene::Scene> scene) {
     session.camera = addCamera(session.scene, session.settings.cameraPath,
                                session.cameraPath->at(session.settings.time));
   scene::Scene& s = session.scene;
-  if (s.headlight != scene::kNone)
-    s.lights[s.headlight].node = s.cameras[session.camera].node;
+  if (s.headlight != scene::kNone) s.lights[s.headlight].node = s.cameras[session.camera].node;
   return {};
 }
 
 Status checkFolder(const std::string& folder) {
-  if (folder.empty() || std::filesystem::is_directory(folder)) return {};
+  std::error_code noFolder;
+  if (folder.empty() || std::filesystem::is_directory(folder, noFolder)) return {};
   return error(ErrorKind::Usage, "--shaders: '{}' is not a folder; wanted one laid out like src/",
                folder);
 }

@@ -89,12 +89,21 @@ Capabilities Capabilities::baseline() {
 }
 
 Result<Capabilities> Capabilities::fromJson(const std::string& text, const std::string& name) {
+  constexpr int kMaxDepth = 8;  // the form has two levels; what prints deeper ones recurses
+  bool tooDeep = false;
+  const auto watchDepth = [&](int depth, Json::parse_event_t, Json&) {
+    tooDeep = tooDeep || depth > kMaxDepth;
+    return !tooDeep;
+  };
   Json json;
   try {
-    json = Json::parse(text);
+    json = Json::parse(text, watchDepth);
   } catch (const Json::parse_error& e) {
     return error(ErrorKind::Input, "{}: not JSON: {}", name, e.what());
   }
+  if (tooDeep)
+    return error(ErrorKind::Input, "{}: more than {} nested arrays and objects; wanted two", name,
+                 kMaxDepth);
   if (!json.is_object())
     return error(ErrorKind::Input,
                  "{}: expected an object with \"features\" and \"renderable\", found {}", name,

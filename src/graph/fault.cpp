@@ -52,9 +52,7 @@ const char* nameOf(FaultKind kind) {
 }
 
 std::string Fault::text() const {
-  std::string text =
-      fmt::format("{}: {} [{}]\n  found:  {}", severity == Severity::Error ? "error" : "warning",
-                  place, nameOf(kind), found);
+  std::string text = fmt::format("{} [{}]\n  found:  {}", place, nameOf(kind), found);
   if (!wanted.empty()) text += fmt::format("\n  wanted: {}", wanted);
   if (!remedy.empty()) text += fmt::format("\n  to do:  {}", remedy);
   return text;
@@ -62,7 +60,9 @@ std::string Fault::text() const {
 
 std::string Validation::text() const {
   std::string text;
-  for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + fault.text();
+  for (const Fault& fault : faults)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "\n",
+                        fault.severity == Severity::Error ? "error" : "warning", fault.text());
   return text;
 }
 

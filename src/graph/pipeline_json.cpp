@@ -64,7 +64,7 @@ class Reader {
     }
     Pipeline pipeline;
     pipeline.source = source_;
-    checkKeys(root, source_, {"lucerna", "name", "output", "passes"});
+    checkKeys(root, source_, {"$schema", "lucerna", "name", "output", "passes"});
     if (const auto form = root.find("lucerna"); form == root.end())
       fault(source_, "the key \"lucerna\" is missing; wanted \"lucerna\": \"{}\"", kForm);
     else if (*form != kForm)
@@ -182,6 +182,8 @@ class Reader {
     readText(object, "type", place, row.type);
     row.name = row.type;
     readText(object, "name", place, row.name);
+    if (row.name.empty() && !row.type.empty())
+      fault(place, "the name is empty; leave \"name\" out or give one");
     if (!object.contains("type")) fault(place, "the key \"type\" is missing; name a pass type");
     if (row.name.find_first_of(".=") != std::string::npos)
       fault(place, "the name '{}' has a '.' or '='; wanted a name without, for \"Row.port\"",

@@ -44,7 +44,7 @@ struct Fault {
   Severity severity = Severity::Error;
   std::string place{};  // "deferred.js:12, pass 'Ao', input 'depth'"
   std::string found, wanted, remedy;
-  std::string text() const;
+  std::string text() const;  // without the severity
 };
 
 // Where an input's value comes from.

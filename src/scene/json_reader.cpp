@@ -38,8 +38,17 @@ class Scanner {
   void next() { ++at_; }
 
   void skipSpace() {
-    while (at_ < text_.size() && std::string_view(" \t\r\n,:").find(peek()) != std::string::npos)
-      ++at_;
+    for (;;) {
+      while (at_ < text_.size() && std::string_view(" \t\r\n,:").find(peek()) != std::string::npos)
+        ++at_;
+      const std::string_view rest = std::string_view(text_).substr(std::min(at_, text_.size()));
+      if (rest.starts_with("//"))
+        at_ = std::min(text_.find('\n', at_), text_.size());
+      else if (rest.starts_with("/*"))
+        at_ = std::min(text_.find("*/", at_), text_.size() - 2) + 2;
+      else
+        return;
+    }
   }
   std::string_view skipString() {
     const std::size_t start = at_;
@@ -105,8 +114,9 @@ Result<json> parseJson(const std::string& text, const std::string& file) {
   try {
     json root = json::parse(text, watchDepth, /*allow_exceptions=*/true, /*ignore_comments=*/true);
     if (tooDeep)
-      return error(ErrorKind::Input, "{}: more than {} nested arrays and objects; wanted at most {}",
-                   file, kMaxDepth, kMaxDepth);
+      return error(ErrorKind::Input,
+                   "{}: more than {} nested arrays and objects; wanted at most {}", file, kMaxDepth,
+                   kMaxDepth);
     return root;
   } catch (const json::exception& fault) {
     // "[json.exception.parse_error.101] parse error at line ..."

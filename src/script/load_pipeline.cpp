@@ -24,7 +24,9 @@ Result<graph::Pipeline> loadPipeline(const std::string& nameOrFile, const Script
                    "{}: 'script.{}' is set, but a JSON pipeline has no parameters of its own",
                    nameOrFile, input.params.begin()->first);
     LUCERNA_TRY(text, readText(nameOrFile));
-    return graph::pipelineFromJson(text, nameOrFile);
+    LUCERNA_TRY(pipeline, graph::pipelineFromJson(text, nameOrFile));
+    if (pipeline.name.empty()) pipeline.name = std::filesystem::path(nameOrFile).stem().string();
+    return pipeline;
   }
   for (const EmbeddedText& file : shippedPipelines())
     if (file.name.substr(0, file.name.rfind('.')) == nameOrFile)

@@ -38,7 +38,12 @@ Result<graph::Pipeline> fromAnswer(const Json& answer, const std::string& name,
   LUCERNA_TRY_VOID(checkAllUsed(input, answer.at("params").get<std::vector<std::string>>(), name));
   LUCERNA_TRY(pipeline, graph::pipelineFromJson(answer.at("pipeline").dump(), name));
   const auto lines = answer.at("places").get<std::vector<int>>();
-  CHECK(lines.size() == pipeline.passes.size());
+  if (lines.size() != pipeline.passes.size())
+    return error(
+        ErrorKind::Pipeline,
+        "{}: the script changed what the engine itself uses and came back with {} rows and {} "
+        "places; leave the built-in prototypes alone",
+        name, pipeline.passes.size(), lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
     pipeline.passes[i].place = fmt::format("{}:{}", name, lines[i]);
   if (pipeline.name.empty()) pipeline.name = std::filesystem::path(name).stem().string();
