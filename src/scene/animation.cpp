@@ -75,8 +75,11 @@ std::vector<std::uint32_t> animate(Scene& scene, float time) {
 
   for (const Animation& animation : scene.animations) {
     const float duration = animation.duration();
-    float local = duration > 0.f ? std::fmod(time, duration) : 0.f;
-    if (local < 0.f) local += duration;
+    float local = time;
+    if (time < 0.f || time > duration) {  // at its very end it shows the last pose
+      local = duration > 0.f ? std::fmod(time, duration) : 0.f;
+      if (local < 0.f) local += duration;
+    }
     for (const AnimationChannel& channel : animation.channels)
       if (channel.node != kNone && !channel.times.empty())
         apply(scene.nodes[channel.node], channel, local);

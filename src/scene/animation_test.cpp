@@ -33,6 +33,8 @@ TEST(Animate, InterpolatesAndRepeats) {
     EXPECT_FLOAT_EQ(scene.nodes[1].translation.x, 3.f) << t;
     EXPECT_FLOAT_EQ(scene.nodes[1].worldFromNode[3].y, 2.f) << t;
   }
+  animate(scene, 2.f);  // the last pose, not the first
+  EXPECT_FLOAT_EQ(scene.nodes[1].translation.x, 4.f);
 }
 
 TEST(Animate, TellsWhichObjectsMoved) {

@@ -34,6 +34,17 @@ Status checkReadable(const fs::path& path) {
   return {};
 }
 
+// The clips of a file are alternatives (walk, run, ...): together they would mix their poses.
+void keepFirstClip(Scene& scene) {
+  auto& clips = scene.animations;
+  if (clips.size() < 2) return;
+  std::string others;
+  for (std::size_t i = 1; i < clips.size(); ++i) others += (i > 1 ? ", " : "") + clips[i].name;
+  scene.warnings.push_back("of several animations only '" + clips[0].name +
+                           "' is played, not: " + others);
+  clips.resize(1);
+}
+
 Result<Scene> readFileOfScene(const fs::path& path, IncludeChain& chain) {
   const std::string extension = lowerExtension(path);
   if (extension == ".gltf" || extension == ".glb") return readGltf(path);
@@ -59,6 +70,7 @@ Result<Scene> readScene(const std::string& pathOrName, IncludeChain& chain) {
   LUCERNA_TRY_VOID(checkReadable(path));
   LUCERNA_TRY(scene, readFileOfScene(path, chain));
   if (lowerExtension(path) != ".json") {
+    keepFirstClip(scene);
     fs::path beside = path;
     beside.replace_extension(".lucerna.json");
     std::error_code code;

@@ -110,7 +110,7 @@ struct Scene {
   // Of lights: the one that complete() added. It goes with the camera that is looked through.
   std::uint32_t headlight = kNone;
   std::vector<Camera> cameras;
-  std::vector<Animation> animations;
+  std::vector<Animation> animations;  // they play at once; of each file the first is here
   Background background;
   vec3 ambient{0.f};     // radiance-like: a white surface shows it (IA of the Phong model)
   float exposure = 0.f;  // EV: linear colours are multiplied by 2^exposure before tone mapping
@@ -131,7 +131,7 @@ std::vector<std::uint32_t> animate(Scene& scene, float time);
 std::vector<PlacedLight> placeLights(const Scene& scene);
 
 // What a viewer expects where a file is silent: normals, tangents where a normal map needs them, a
-// headlight-like directional light with some ambient if there is no light, a camera that fits the
+// headlight-like directional light with some ambient if there is no light at all, a camera to fit the
 // scene if there is none. Called once by loadScene().
 void complete(Scene& scene);
 void makeNormals(Mesh& mesh);  // area-weighted over equal positions that share a vertex
