@@ -17,6 +17,7 @@ void move(std::vector<T>& to, std::vector<T>& from) {
 }  // namespace
 
 void append(Scene& scene, Scene part, const Node& place) {
+  const bool first = scene.nodes.empty();
   const std::uint32_t root = addNode(scene, place);
   const std::size_t nodes = scene.nodes.size();
   for (Node& node : part.nodes) {
@@ -45,6 +46,12 @@ void append(Scene& scene, Scene part, const Node& place) {
       camera.node = root;
     else
       shift(camera.node, nodes);
+  }
+  if (first) {
+    shift(part.background.texture, scene.textures.size());
+    for (std::uint32_t& face : part.background.faces) shift(face, scene.textures.size());
+    scene.background = part.background;
+    scene.exposure = part.exposure;
   }
   for (Animation& animation : part.animations)
     for (AnimationChannel& channel : animation.channels) shift(channel.node, nodes);

@@ -5,8 +5,8 @@
 
 namespace lucerna::scene {
 
-// Adds everything of `part` but its background and exposure below a new node at `place`. The
-// ambient light of both adds up.
+// Adds everything of `part` below a new node at `place`. The ambient light of both adds up; the
+// background and exposure of `part` count only where the scene was empty.
 void append(Scene& scene, Scene part, const Node& place);
 
 }  // namespace lucerna::scene

@@ -50,7 +50,7 @@ void addHeadlight(Scene& scene) {
   light.node = scene.cameras.front().node;
   scene.headlight = static_cast<std::uint32_t>(scene.lights.size());
   scene.lights.push_back(light);
-  scene.ambient = glm::max(scene.ambient, vec3(kDefaultAmbient));
+  scene.ambient = vec3(kDefaultAmbient);
 }
 
 }  // namespace
@@ -64,7 +64,8 @@ void complete(Scene& scene) {
   addTangents(scene);
   updateTransforms(scene);
   if (scene.cameras.empty()) addFittingCamera(scene);
-  if (scene.lights.empty()) addHeadlight(scene);
+  // A scene with ambient light only is meant to look so.
+  if (scene.lights.empty() && scene.ambient == vec3(0.f)) addHeadlight(scene);
 }
 
 }  // namespace lucerna::scene

@@ -138,6 +138,15 @@ TEST(Complete, AddsMaterialLightAndCameraWhereThereAreNone) {
   EXPECT_EQ(scene.meshes[0].normals.size(), 4u);
 }
 
+TEST(Complete, AddsNoHeadlightToAmbientLight) {
+  Scene scene = sceneOf(square());
+  scene.ambient = vec3(0.05f);
+  complete(scene);
+  EXPECT_THAT(scene.lights, testing::IsEmpty());
+  EXPECT_EQ(scene.headlight, kNone);
+  EXPECT_EQ(scene.ambient, vec3(0.05f));
+}
+
 TEST(Complete, LeavesAloneWhatThereIs) {
   Scene scene = sceneOf(square());
   scene.materials.resize(1);
@@ -197,6 +206,18 @@ TEST(Complete, InARoomTheCameraStandsInside) {
                           eye.y < box.max.y && eye.z > box.min.z && eye.z < box.max.z;
     EXPECT_EQ(isInside, inside);
   }
+}
+
+TEST(Append, TheFirstPartGivesBackgroundAndExposure) {
+  Scene scene;
+  for (const float exposure : {1.f, 2.f}) {
+    Scene part = sceneOf(square());
+    part.exposure = exposure;
+    part.background.color = vec3(exposure);
+    append(scene, part, Node{});
+  }
+  EXPECT_EQ(scene.exposure, 1.f);
+  EXPECT_EQ(scene.background.color, vec3(1.f));
 }
 
 TEST(Append, ShiftsIndicesAndPlacesThePart) {
