@@ -131,8 +131,8 @@ std::vector<std::uint32_t> animate(Scene& scene, float time);
 std::vector<PlacedLight> placeLights(const Scene& scene);
 
 // What a viewer expects where a file is silent: normals, tangents where a normal map needs them, a
-// headlight-like directional light with some ambient if there is no light at all, a camera to fit the
-// scene if there is none. Called once by loadScene().
+// headlight-like directional light with some ambient if there is neither light nor ambient light, a
+// camera that fits the scene if there is none. Called once by loadScene().
 void complete(Scene& scene);
 void makeNormals(Mesh& mesh);  // area-weighted over equal positions that share a vertex
 void makeTangents(Mesh& mesh, int texCoord);
