@@ -7,16 +7,21 @@
 namespace lucerna::app {
 namespace {
 
+void moveLights(Session& s) {
+  render::updateLights(*s.device, s.lights, s.scene);
+  s.gpuScene.changes.lights = true;
+}
+
 // The scene at this frame's time, on the CPU and on the GPU.
 void applySceneChanges(Session& s) {
   if (!s.scene.animations.empty()) {
     const auto moved = scene::animate(s.scene, static_cast<float>(s.time()));
     render::updateMoved(*s.device, s.gpuScene, moved);
-    render::updateLights(*s.device, s.lights, s.scene);
+    moveLights(s);
   }
   if (s.cameraPath) {
     moveCamera(s.scene, s.camera, s.cameraPath->at(s.time()));
-    if (s.scene.headlight != scene::kNone) render::updateLights(*s.device, s.lights, s.scene);
+    if (s.scene.headlight != scene::kNone) moveLights(s);
   }
   const uvec2 size = s.settings.renderSize();
   const float aspect =
@@ -25,7 +30,7 @@ void applySceneChanges(Session& s) {
                      size);
 }
 
-// A pipeline that does not load any more is reported, and the last good one goes on.
+// A pipeline that does not load or validate any more is reported, and the last good one goes on.
 void reloadChangedFiles(Session& s) {
   if (!s.watch) return;
   if (const int count = s.device->reloadChangedShaders(); count > 0)
@@ -37,6 +42,11 @@ void reloadChangedFiles(Session& s) {
   auto pipeline = readPipeline(s.registry, s.settings.pipeline, s.settings.sets, s.settings.seed);
   if (!pipeline) {
     log::error("{}", pipeline.error().message);
+    return;
+  }
+  const auto validation = graph::validate(*pipeline, s.registry, s.device->capabilities());
+  if (!validation.ok()) {
+    log::error("{}", validation.text());
     return;
   }
   s.pipeline = std::move(*pipeline);

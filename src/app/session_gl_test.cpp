@@ -141,6 +141,29 @@ TEST_F(SessionTest, TheHeadlightGoesWithTheChosenCamera) {
   EXPECT_GT(onPath->pixel<std::uint8_t>(48, 27)[1], 150);
 }
 
+// Passes with caches see a new scene in the first frame, also if it moves at once; then what moved.
+TEST_F(SessionTest, ChangesAddUpUntilAFrameHasRun) {
+  settings_.scene = "builtin:atrium?lights=2&moving=0.1";
+  settings_.timeStep = 0.1;
+  auto opened = openSession(settings_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  ASSERT_FALSE((*opened)->scene.animations.empty());
+  std::vector<render::SceneChanges> seen;
+  const FrameSink note = [&](Session& s, const gpu::Texture&) {
+    seen.push_back(s.gpuScene.changes);
+    return Status();
+  };
+  for (int frame = 0; frame < 2; ++frame) {
+    const Status status = runFrame(**opened, nullptr, note);
+    ASSERT_TRUE(status) << status.error().message;
+  }
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_TRUE(seen[0].everything && seen[0].materials && seen[0].lights);
+  EXPECT_TRUE(seen[1].lights);
+  EXPECT_FALSE(seen[1].everything || seen[1].materials);
+  EXPECT_FALSE(seen[1].movedObjects.empty());
+}
+
 TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
   const std::filesystem::path file = folder_ / "mine.js";
   const auto write = [&](const std::string& text, int seconds) {
@@ -163,9 +186,14 @@ TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
   ASSERT_TRUE(runFrame(session, nullptr, ignore));
   EXPECT_EQ(session.pipeline.passes.size(), 5u);
 
-  write("pass('Cull'", 4);
-  ASSERT_TRUE(runFrame(session, nullptr, ignore));
-  EXPECT_EQ(session.pipeline.passes.size(), 5u);
+  // Neither a script that does not parse nor rows that do not fit together.
+  int seconds = 4;
+  for (const char* faulty : {"pass('Cull'", "pass('Lighting'); pass('ToneMap');"}) {
+    write(faulty, seconds++);
+    const Status status = runFrame(session, nullptr, ignore);
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_EQ(session.pipeline.passes.size(), 5u);
+  }
 }
 
 TEST_F(SessionTest, AFaultyPipelineRendersNothing) {

@@ -103,10 +103,9 @@ void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene) 
 }
 
 void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::uint32_t> moved) {
-  gpuScene.changes = {};
-  gpuScene.changes.everything = false;
-  gpuScene.changes.movedObjects.assign(moved.begin(), moved.end());
   if (moved.empty()) return;
+  auto& known = gpuScene.changes.movedObjects;
+  known.insert(known.end(), moved.begin(), moved.end());
   uploadObjects(device, gpuScene);
   buildBvh(gpuScene);
 }

@@ -50,7 +50,8 @@ struct GpuScene {
 
 // Uploads everything. The scene must outlive it.
 void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene);
-// After animate(): object matrices, boxes and BVH. Sets changes.movedObjects.
+// After animate(): object matrices, boxes and BVH. Adds to changes.movedObjects; who runs a
+// frame clears the changes after it.
 void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::uint32_t> moved);
 
 }  // namespace lucerna::render
