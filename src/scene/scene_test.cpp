@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include "image/image_file.hpp"
 #include "scene/append.hpp"
+#include "scene/texture_store.hpp"
 #include "scene/view.hpp"
 
 namespace lucerna::scene {
@@ -206,6 +208,24 @@ TEST(Complete, InARoomTheCameraStandsInside) {
                           eye.y < box.max.y && eye.z > box.min.z && eye.z < box.max.z;
     EXPECT_EQ(isInside, inside);
   }
+}
+
+TEST(TextureStore, RefusesWhatIsTooMuchTogether) {
+  const auto folder = std::filesystem::temp_directory_path() / "lucerna_texture_store";
+  std::filesystem::create_directories(folder);
+  TextureStore store;
+  int side = 0;
+  for (const char* name : {"a.png", "b.png", "c.png"}) {  // 1, 4 and 9 pixels
+    ++side;
+    ASSERT_TRUE(writeImage(folder / name, Image(side, side, 4, ComponentType::U8)));
+    store.addFile(folder / name);
+  }
+  std::vector<std::string> warnings;
+  const auto images = store.load(warnings, 13);
+  EXPECT_EQ(images[1]->width(), 2);
+  EXPECT_EQ(images[2], checkerboard());
+  EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("c.png is replaced")));
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Append, TheFirstPartGivesBackgroundAndExposure) {

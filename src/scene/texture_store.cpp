@@ -28,7 +28,38 @@ std::size_t TextureStore::addMissing(std::string name, std::string reason) {
   return requests_.size() - 1;
 }
 
-std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::string>& warnings) {
+// By the headers and before decoding, so that it is always the same images that are refused.
+void TextureStore::refuseBeyond(std::uint64_t maxPixels) {
+  std::vector<std::uint64_t> pixels(requests_.size(), 0);  // 0: decoding will say what is wrong
+  parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Request& request = requests_[i];
+      if (!request.missing.empty()) continue;
+      Bytes content;
+      if (!request.path.empty()) {
+        auto file = readFile(request.path);
+        if (file) content = std::move(file).value();
+      }
+      const auto info = imageInfo(request.path.empty() ? request.bytes : content, request.name);
+      if (info && info->width > 0 && info->height > 0)
+        pixels[i] = static_cast<std::uint64_t>(info->width) * static_cast<unsigned>(info->height);
+    }
+  });
+  std::uint64_t total = 0;
+  for (std::size_t i = 0; i < requests_.size(); ++i) {
+    if (pixels[i] > kTextureLimits.maxPixels) continue;  // refused by itself
+    if (pixels[i] <= maxPixels - total) {
+      total += pixels[i];
+      continue;
+    }
+    requests_[i].missing = "with it the textures have more than " + std::to_string(maxPixels) +
+                           " pixels together; make them smaller";
+  }
+}
+
+std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::string>& warnings,
+                                                             std::uint64_t maxPixels) {
+  refuseBeyond(maxPixels);
   std::vector<std::shared_ptr<const Image>> images(requests_.size());
   std::vector<std::string> reasons(requests_.size());
   parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {

@@ -1,6 +1,7 @@
 // Gathers the images that a scene's textures ask for, reads and decodes each once, in parallel.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -20,10 +21,14 @@ class TextureStore {
   std::size_t addMissing(std::string name, std::string reason);  // gives the stand-in
 
   // One image a ticket, never null. An image that cannot be read gives one sentence in `warnings`
-  // (in order of the tickets) and the checkerboard instead. Empties the store.
-  std::vector<std::shared_ptr<const Image>> load(std::vector<std::string>& warnings);
+  // (in order of the tickets) and the checkerboard instead; so does one that would bring them all
+  // above `maxPixels` (2^30: 4 GiB as RGBA). Empties the store.
+  std::vector<std::shared_ptr<const Image>> load(std::vector<std::string>& warnings,
+                                                 std::uint64_t maxPixels = 1ull << 30);
 
  private:
+  void refuseBeyond(std::uint64_t maxPixels);
+
   struct Request {
     std::string name;
     std::filesystem::path path;  // empty: bytes
