@@ -1,7 +1,9 @@
 // Buffers and buffer views: declared sizes are checked against each other, then against the files,
 // and only then is memory taken.
+#include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 
 #include "scene/gltf/document.hpp"
 
@@ -63,8 +65,9 @@ Bytes base64Decoded(std::string_view text, const Place& place) {
   return bytes;
 }
 
-// The first `length` bytes of a file that has at least as many.
-Bytes readPrefix(const std::filesystem::path& path, std::uint64_t length, const Place& buffer) {
+// A file that has at least `length` bytes: all of it, as far as a buffer can reach, because other
+// buffers may name it too.
+Bytes readBufferFile(const std::filesystem::path& path, std::uint64_t length, const Place& buffer) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) {
     fail(buffer.at("uri").pointer(), fmt::format("no file {}", path.string()),
@@ -76,9 +79,9 @@ Bytes readPrefix(const std::filesystem::path& path, std::uint64_t length, const 
         .refuse(fmt::format("{}, but {} has {} bytes", length, path.string(), code ? 0 : size),
                 "at most the size of the file");
   }
-  Bytes bytes(length);
+  Bytes bytes(std::min<std::uint64_t>(size, kMaxBytes));
   std::ifstream stream(path, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(length));
+  stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   if (!stream) {
     fail(buffer.at("uri").pointer(), fmt::format("{}, which cannot be read", path.string()),
          "a readable file", "check its permissions");
@@ -86,7 +89,11 @@ Bytes readPrefix(const std::filesystem::path& path, std::uint64_t length, const 
   return bytes;
 }
 
-std::span<const std::byte> readBuffer(Document& document, const Place& buffer, std::size_t index) {
+// What was read already, by file: many buffers that name one file share its bytes.
+using KnownFiles = std::map<std::filesystem::path, std::span<const std::byte>>;
+
+std::span<const std::byte> readBuffer(Document& document, const Place& buffer, std::size_t index,
+                                      KnownFiles& known) {
   const std::uint64_t length = buffer.at("byteLength").integer(1, kMaxBytes);
   const auto uri = buffer.find("uri");
   if (!uri) {
@@ -101,8 +108,15 @@ std::span<const std::byte> readBuffer(Document& document, const Place& buffer, s
   }
   const std::string& text = uri->text();
   auto inlined = decodeDataUri(text, *uri);
-  document.resources.push_back(inlined ? std::move(*inlined)
-                                       : readPrefix(resolveUri(document, *uri), length, buffer));
+  if (!inlined) {
+    auto& bytes = known[resolveUri(document, *uri).lexically_normal()];
+    if (bytes.size() < length) {
+      document.resources.push_back(readBufferFile(resolveUri(document, *uri), length, buffer));
+      bytes = document.resources.back();
+    }
+    return bytes.subspan(0, length);
+  }
+  document.resources.push_back(std::move(*inlined));
   const Bytes& bytes = document.resources.back();
   if (bytes.size() < length) {
     buffer.at("byteLength")
@@ -158,10 +172,12 @@ void readBuffers(Document& document) {
         {{}, length, static_cast<std::uint32_t>(view.integer("byteStride", 0, 1, 252))});
   }
   std::vector<std::span<const std::byte>> data;
+  KnownFiles known;
   for (std::size_t i = 0; i < buffers.size(); ++i) {
-    data.push_back(readBuffer(document, buffers[i], i));
-    document.bufferBytes += data.back().size();
+    data.push_back(readBuffer(document, buffers[i], i, known));
   }
+  document.bufferBytes = document.binary.size();
+  for (const Bytes& bytes : document.resources) document.bufferBytes += bytes.size();
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto& bytes = data[ranges[i].buffer];
     if (!bytes.empty()) document.views[i].bytes = bytes.subspan(ranges[i].offset, ranges[i].length);

@@ -27,7 +27,7 @@ struct Document {
   bool hasBinary = false;
   std::deque<Bytes> resources;  // what buffers with a uri hold
   std::vector<BufferView> views;
-  std::uint64_t bufferBytes = 0;  // of all buffers
+  std::uint64_t bufferBytes = 0;  // of all buffers; a file that several name counts once
   std::vector<std::string> warnings;
 
   Place root() const { return {json, json}; }

@@ -409,6 +409,16 @@ TEST_F(GltfFile, RefusesBuffersLargerThanTheirFile) {
   EXPECT_THAT(scene.error().message, HasSubstr("/buffers/0/byteLength: found 4000000000, but"));
 }
 
+TEST_F(GltfFile, BuffersOfOneFileShareItsBytes) {
+  indexedSquare();
+  ASSERT_TRUE(read());
+  root_["buffers"][1] = root_["buffers"][0];
+  root_["bufferViews"][1]["buffer"] = 1;  // the indices
+  const auto scene = readText(root_.dump());
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->triangleCount(), 2u);
+}
+
 TEST_F(GltfFile, RefusesHugeAccessorsOfZeros) {
   root_["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 0;
   root_["accessors"][0] = {{"componentType", 5126}, {"count", 4000000000u}, {"type", "VEC3"}};
