@@ -100,9 +100,10 @@ TEST_P(EachPassDraws, NothingWrongWhileItIsDisabled) {
   const Stage stage = stageOf(GetParam());
   graph::Pipeline pipeline = testing::rows(stage.rows);
   for (graph::PassRow& row : pipeline.passes) row.enabled = row.type != GetParam();
-  auto output = renderer.render(pipeline, kSize);
+  auto output = renderer.render(pipeline, kSize, testing::radianceNames(pipeline));
   ASSERT_TRUE(output) << output.error().message;
   EXPECT_TRUE(allFinite(output->picture));
+  for (const auto& [name, radiance] : output->kept) EXPECT_TRUE(allFinite(radiance)) << name;
 }
 
 // The same surfaces, lights and formulas by two ways: they differ by the G-buffer's rounding only.

@@ -85,12 +85,13 @@ TEST(PipelineFuzz, RandomRowsDrawCleanlyOrAreRefusedWithAReason) {
     SCOPED_TRACE("round " + std::to_string(round) + ":" + listing(pipeline));
     const graph::Validation validation =
         graph::validate(pipeline, testing::registry(), testing::device().capabilities());
-    auto output = renderer.render(pipeline, kSize);
+    auto output = renderer.render(pipeline, kSize, testing::radianceNames(pipeline));
     ASSERT_EQ(static_cast<bool>(output), validation.ok()) << validation.text();
     if (output) {
       ++drawn;
       EXPECT_FALSE(output->picture.empty());
       EXPECT_TRUE(allFinite(output->picture));
+      for (const auto& [name, radiance] : output->kept) EXPECT_TRUE(allFinite(radiance)) << name;
     } else {
       ++refused;
       EXPECT_GT(output.error().message.size(), 20u);

@@ -4,8 +4,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <set>
 
 #include "gpu/context.hpp"
+#include "graph/validate.hpp"
 #include "passes/register_passes.hpp"
 
 namespace lucerna::testing {
@@ -62,6 +64,20 @@ graph::Pipeline rows(const std::vector<std::string>& types) {
     row.place = "row " + std::to_string(pipeline.passes.size());
   }
   return pipeline;
+}
+
+std::vector<std::string> radianceNames(const graph::Pipeline& pipeline) {
+  std::set<std::string> names;
+  const graph::Validation validation =
+      graph::validate(pipeline, registry(), device().capabilities());
+  if (!validation.ok()) return {};
+  for (const graph::ResolvedRow& row : validation.plan->rows) {
+    if (row.culled || row.description.type != "ToneMap") continue;
+    const graph::ResolvedInput* input = row.input("color");
+    if (input && input->source.kind == graph::Source::Kind::Output)
+      names.insert(pipeline.passes[input->source.row].name + "." + input->source.port);
+  }
+  return {names.begin(), names.end()};
 }
 
 SceneRenderer::SceneRenderer(const scene::Scene& scene)

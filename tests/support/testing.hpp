@@ -32,6 +32,10 @@ void expectNoDebugMessages();
 graph::Pipeline rows(const std::vector<std::string>& types);
 extern const std::vector<std::string> kDeferredRows, kForwardRows;
 
+// The values that the pipeline's ToneMap rows read, "Lighting.color": in these floats a NaN shows,
+// 8-bit pictures cannot hold one. Empty if the pipeline is faulty.
+std::vector<std::string> radianceNames(const graph::Pipeline& pipeline);
+
 // A scene on the GPU, drawn through any number of pipelines.
 class SceneRenderer {
  public:
