@@ -80,7 +80,7 @@ Mesh looseMesh(const aiMesh& source) {
 class Conversion {
  public:
   Conversion(const aiScene& source, const FileConventions& file)
-      : source_(source), file_(file), materials_(convertMaterials(source, file, result_)) {}
+      : source_(source), materials_(convertMaterials(source, file, result_)) {}
 
   ImportedScene run(const mat4& metresFromFile) {
     convertMeshes();
@@ -152,7 +152,6 @@ class Conversion {
   }
 
   const aiScene& source_;
-  const FileConventions& file_;
   ImportedScene result_;
   std::vector<std::uint32_t> materials_;
   NodesByName nodes_;
