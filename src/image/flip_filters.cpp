@@ -73,7 +73,7 @@ FeatureFilters featureFilters(float pixelsPerDegree) {
   for (int x = -radius; x <= radius; ++x) {
     const auto at = static_cast<std::size_t>(x + radius);
     edge.taps[at] *= static_cast<float>(-x);
-    point.taps[at] *= static_cast<float>(x * x / (sigma * sigma) - 1);
+    point.taps[at] *= static_cast<float>(static_cast<double>(x) * x / (sigma * sigma) - 1);
   }
   return {normalised(bell), balanced(edge), balanced(point)};
 }
