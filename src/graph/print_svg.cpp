@@ -151,7 +151,7 @@ class Drawing {
   }
 
   // Wires run left of the boxes, each in a column of its own as far as there is room; a resource is
-  // a short stub with its name.
+  // a short end with its name.
   void drawWire(const Wire& wire) {
     const bool toOutput = wire.to >= schedule_.steps.size();
     const int y = toOutput ? bottom_ : portY(wire.to, wire.label, Direction::Out);
