@@ -1,5 +1,6 @@
 #include "command_line.hpp"
 
+#include <charconv>
 #include <cstdio>
 
 #include "core/text.hpp"
@@ -40,6 +41,15 @@ std::string describeExtra(const CLI::App& app, const std::string& word) {
   return fmt::format("unexpected argument '{}'", word);
 }
 
+// What CLI11 found, without its jargon.
+std::string describeFault(const CLI::ParseError& fault) {
+  const std::string text = fault.what();  // "--size: 1 required TEXT missing"
+  if (!dynamic_cast<const CLI::ArgumentMismatch*>(&fault)) return text;
+  const std::string option = text.substr(0, text.find(": "));
+  return text.ends_with("missing") ? option + ": found nothing after it, wanted a value"
+                                   : option + ": found more than one, wanted one";
+}
+
 }  // namespace
 
 const CLI::App& chosenCommand(const CLI::App& app) {
@@ -67,11 +77,40 @@ CLI::Validator oneOf(std::vector<std::string> choices) {
   return CLI::Validator(check, description);
 }
 
+CLI::Validator between(double min, double max, const std::string& unit) {
+  const std::string wanted =
+      fmt::format("{:g} to {:g}{}", min, max, unit.empty() ? "" : " " + unit);
+  const auto check = [=](const std::string& text) -> std::string {
+    double value = 0;
+    if (CLI::detail::lexical_cast(text, value) && value >= min && value <= max) return {};
+    return fmt::format("'{}' is not a number from {}", text, wanted);
+  };
+  return CLI::Validator(check, wanted);
+}
+
+CLI::Validator wholeNumber(std::uint64_t min, std::uint64_t max) {
+  const std::string wanted = fmt::format("{} to {}", min, max);
+  const auto check = [=](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [parsed, fault] = std::from_chars(text.data(), end, value);
+    if (fault == std::errc() && parsed == end && value >= min && value <= max) return {};
+    return fmt::format("'{}' is not a whole number from {}", text, wanted);
+  };
+  return CLI::Validator(check, wanted);
+}
+
+std::string helpText(const CLI::App& app) {
+  const CLI::App& command = chosenCommand(app);
+  return command.help(command.get_parent() ? fullName(*command.get_parent()) : "");
+}
+
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& fault) {
   const CLI::App& command = chosenCommand(app);
   // A word that nobody took is the likely cause of whatever else is missing.
   const std::vector<std::string> words = command.remaining();
-  const std::string what = words.empty() ? fault.what() : describeExtra(command, words.front());
+  const std::string what =
+      words.empty() ? describeFault(fault) : describeExtra(command, words.front());
   return fmt::format("{}: {}\n`{} --help` shows how it is used", fullName(command), what,
                      fullName(command));
 }

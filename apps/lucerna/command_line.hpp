@@ -42,6 +42,10 @@ void addPipeline(CommandLine& line);
 // Fails with "found, wanted, did you mean" unless the value is one of `choices`.
 CLI::Validator oneOf(std::vector<std::string> choices);
 
+// Fail with "found, wanted" unless the value is a number in the range; NaN is in none.
+CLI::Validator between(double min, double max, const std::string& unit = "");
+CLI::Validator wholeNumber(std::uint64_t min, std::uint64_t max);
+
 // Throws CLI::ValidationError, which becomes exit code 2.
 template <typename T>
 T orUsageError(const std::string& option, Result<T> result) {
@@ -51,6 +55,9 @@ T orUsageError(const std::string& option, Result<T> result) {
 
 // The innermost subcommand that was chosen, or the program itself.
 const CLI::App& chosenCommand(const CLI::App& app);
+
+// The help of that one.
+std::string helpText(const CLI::App& app);
 
 // The message for a command line that CLI11 refused: subcommand, what was found, did you mean.
 std::string usageMessage(const CLI::App& app, const CLI::ParseError& fault);

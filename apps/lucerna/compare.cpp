@@ -1,12 +1,12 @@
 // lucerna compare REFERENCE TEST
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "command_line.hpp"
+#include "core/file.hpp"
 #include "core/log.hpp"
 #include "image/image_file.hpp"
 #include "image/metrics.hpp"
@@ -52,8 +52,9 @@ Result<std::optional<Image>> readMask(const Options& options, const Image& refer
   return std::optional<Image>(std::move(result));
 }
 
-// The error map must not replace what is compared.
+// The error map must not replace what is compared, and must be a picture somewhere.
 Status checkHeatmap(const Options& options) {
+  if (!options.heatmap.empty()) LUCERNA_TRY_VOID(checkFolderOf(options.heatmap, "--heatmap"));
   for (const std::string& input : {options.reference, options.test, options.mask}) {
     std::error_code missing;
     if (!options.heatmap.empty() && std::filesystem::equivalent(options.heatmap, input, missing))
@@ -64,17 +65,7 @@ Status checkHeatmap(const Options& options) {
   return {};
 }
 
-// CLI::Range lets NaN through.
-Status checkNumbers(const Options& options) {
-  if (std::isfinite(options.flip.pixelsPerDegree) && std::isfinite(options.failAbove.value_or(0)))
-    return {};
-  return error(ErrorKind::Usage,
-               "--pixels-per-degree, --fail-above: found nan, wanted a number in the range that "
-               "`lucerna compare --help` shows");
-}
-
 Result<int> compare(const Options& options, bool json) {
-  LUCERNA_TRY_VOID(checkNumbers(options));
   LUCERNA_TRY_VOID(checkHeatmap(options));
   LUCERNA_TRY(referenceFile, readImage(options.reference));
   LUCERNA_TRY(testFile, readImage(options.test));
@@ -127,11 +118,11 @@ void addCompare(CommandLine& line) {
       ->add_option_function<double>(
           "--fail-above", [options](double value) { options->failAbove = value; },
           "exit with 1 if the mean FLIP is above this")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(between(0, 1));
   command
       ->add_option("--pixels-per-degree", options->flip.pixelsPerDegree,
                    "of the viewer's eye (67.02)")
-      ->check(CLI::Range(1.f, 1000.f));
+      ->check(between(1, 1000));
   CLI::Option* hdr = command->add_flag("--hdr", options->hdr, "compare linear values by HDR-FLIP");
   command
       ->add_flag("--ldr", options->ldr,

@@ -60,7 +60,7 @@ int run(int count, char** words) {
     return fail({ErrorKind::Usage, usageMessage(line.app, fault)}, wantsJson(count, words));
   }
   if (!line.action) {
-    std::fputs(chosenCommand(line.app).help().c_str(), stderr);
+    std::fputs(helpText(line.app).c_str(), stderr);
     return static_cast<int>(ErrorKind::Usage);
   }
   log::setLevel(line.talk.quiet     ? log::Level::Error

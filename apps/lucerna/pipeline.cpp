@@ -93,6 +93,7 @@ Result<int> graph(const Options& options, bool json) {
   if (extension != ".svg" && extension != ".dot")
     return error(ErrorKind::Usage, "-o: '{}' ends in '{}'; wanted .svg or .dot", options.output,
                  extension);
+  LUCERNA_TRY_VOID(checkFolderOf(options.output, "-o"));
   const auto draw = extension == ".svg" ? graph::toSvg : graph::toDot;
   LUCERNA_TRY_VOID(writeText(options.output, draw(checked.pipeline, plan, schedule)));
   if (json)

@@ -1,23 +1,11 @@
 #include "render_flags.hpp"
 
-#include <cmath>
+#include <limits>
 
 #include "core/text.hpp"
 
 namespace lucerna::cli {
 namespace {
-
-// Unlike CLI::Range, says what the number is for.
-CLI::Validator between(double min, double max, const std::string& unit = "") {
-  const std::string wanted =
-      fmt::format("{:g} to {:g}{}", min, max, unit.empty() ? "" : " " + unit);
-  const auto check = [=](const std::string& text) -> std::string {
-    double value = 0;
-    if (CLI::detail::lexical_cast(text, value) && value >= min && value <= max) return {};
-    return fmt::format("'{}' is not a number from {}", text, wanted);
-  };
-  return CLI::Validator(check, wanted);
-}
 
 std::string checkGl(const std::string& value) {
   const std::vector<std::string> choices{"auto", "egl"};
@@ -46,21 +34,23 @@ void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
       },
       "WIDTHxHEIGHT of the output in pixels (1280x720)");
   command.add_option("--scale", settings.scale, "rendering size in percent of the output's (100)")
-      ->check(between(25, 400));
+      ->check(wholeNumber(25, 400));
   CLI::Option* camera = command.add_option("--camera", settings.camera,
                                            "NAME, INDEX or FILE.json (the scene's first)");
   command
       .add_option("--camera-path", settings.cameraPath,
                   "FILE.json of keyframes that the camera follows")
       ->excludes(camera);
-  command.add_option("--frames", settings.frames, "how many frames (1)")->check(between(1, 1e7));
+  command.add_option("--frames", settings.frames, "how many frames (1)")
+      ->check(wholeNumber(1, 10'000'000));
   command.add_option("--time", settings.time, "seconds into the scene's animation (0)")
       ->check(between(-1e6, 1e6, "s"));
   command.add_option("--time-step", settings.timeStep, "seconds from frame to frame (1/30)")
       ->check(between(0, 1e6, "s"));
-  command.add_option("--seed", settings.seed, "seed of everything random (0)");
+  command.add_option("--seed", settings.seed, "seed of everything random (0)")
+      ->check(wholeNumber(0, std::numeric_limits<std::uint64_t>::max()));
   command.add_option("--threads", settings.threads, "CPU threads; 0: one a core (0)")
-      ->check(between(0, 1024));
+      ->check(wholeNumber(0, 1024));
   command
       .add_option_function<float>(
           "--exposure", [&](float value) { settings.exposure = value; },

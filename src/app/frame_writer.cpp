@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "app/resample.hpp"
-#include "core/log.hpp"
+#include "core/file.hpp"
 #include "image/image_file.hpp"
 
 namespace lucerna::app {
@@ -33,11 +33,7 @@ Image resizedLayer(const Image& image, LayerKind kind, uvec2 size) {
 Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
                                         const RenderSettings& settings) {
   LUCERNA_TRY(name, FrameName::parse(output.path, settings.frames));
-  const std::filesystem::path folder = name.at(0).parent_path();
-  std::error_code noFolder;
-  if (!folder.empty() && !std::filesystem::is_directory(folder, noFolder))
-    return error(ErrorKind::Usage, "-o: the folder '{}' does not exist; make it first",
-                 folder.string());
+  LUCERNA_TRY_VOID(checkFolderOf(name.at(0), "-o"));
   FrameWriter writer(std::move(name));
   writer.exrType_ = output.exrType;
   for (const std::string& layer : output.layers) {

@@ -159,6 +159,14 @@ bool isDeviceOrPipe(const fs::path& path) {
 
 }  // namespace
 
+Status checkFolderOf(const fs::path& path, std::string_view option) {
+  const fs::path folder = path.parent_path();
+  std::error_code noFolder;
+  if (folder.empty() || fs::is_directory(folder, noFolder)) return {};
+  return error(ErrorKind::Usage, "{}: the folder '{}' does not exist; make it first", option,
+               folder.string());
+}
+
 Result<Bytes> readFile(const fs::path& path, std::uint64_t limit) {
   return readWhole<Bytes>(path, limit);
 }

@@ -21,6 +21,10 @@ using Bytes = std::vector<std::byte>;
 Result<Bytes> readFile(const std::filesystem::path& path, std::uint64_t limit = 4ull << 30);
 Result<std::string> readText(const std::filesystem::path& path, std::uint64_t limit = 64ull << 20);
 
+// Asks before long work: can a file stand there? ErrorKind::Usage, in the name of `option` ("-o"),
+// if its folder does not exist.
+Status checkFolderOf(const std::filesystem::path& path, std::string_view option);
+
 Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status writeText(const std::filesystem::path& path, std::string_view text);
 

@@ -73,7 +73,17 @@ class CliTest(unittest.TestCase):
         fails("--gl", "without a window", flags=["--gl", "window"])
         fails("--gl", "did you mean 'egl'", flags=["--gl", "elg"])
         fails("--exposure", "'bright'", flags=["--exposure", "bright"])
-        fails("--set", flags=["--set"])
+        fails("--set", "wanted a value", flags=["--set"])
+        fails("--scale", "'50.5'", "whole number from 25 to 400", flags=["--scale", "50.5"])
+        fails("--seed", "'-1'", "whole number from 0", flags=["--seed", "-1"])
+        fails("--threads", "0 to 1024", flags=["--threads", "many"])
+        fails("--time-step", "'nan'", flags=["--time-step", "nan"])
+        fails("--exr-type", "half or float", flags=["--exr-type", "double"])
+        fails("--camera excludes --camera-path", flags=["--camera", "0", "--camera-path", "p.json"])
+        fails("--output", "more than one", flags=["-o", "b.png"])
+        fails("ToneMap.exposure", "-20 to 20", flags=["--set", "ToneMap.exposure=99"])
+        fails("--pipeline", "wanted a value", flags=["--pipeline"])
+        fails("--profile", "does not exist", flags=["--profile", "nowhere/p.csv"])
         fails("frame-%04d.png", flags=["--frames", "2"])
         fails("--profile", ".csv or .json", flags=["--profile", "p.txt"])
         fails("--layers", ".exr", flags=["--layers", "depth"])
@@ -86,9 +96,26 @@ class CliTest(unittest.TestCase):
         self.assert_fails(2, "--output is required", arguments=["render", ATRIUM])
         self.assert_fails(2, "'5'", "not a camera", arguments=["render", ATRIUM, "-o", "a.png", "--camera", "5"])
 
+    def test_bad_values_of_other_subcommands(self):
+        def fails(*words, arguments):
+            self.assert_fails(2, *words, arguments=arguments)
+        for value in ("2", "nan", "little"):
+            fails("--fail-above", f"'{value}'", "0 to 1", arguments=["compare", "a.png", "b.png", "--fail-above", value])
+        fails("--pixels-per-degree", "1 to 1000",
+              arguments=["compare", "a.png", "b.png", "--pixels-per-degree", "0"])
+        fails("--hdr excludes --ldr", arguments=["compare", "a.png", "b.png", "--hdr", "--ldr"])
+        fails("--heatmap", "does not exist", arguments=["compare", "a.png", "b.png", "--heatmap", "nowhere/e.png"])
+        fails("TEST is required", arguments=["compare", "a.png"])
+        fails("SCENE is required", arguments=["info"])
+        fails("'--caps'", arguments=["doctor", "--caps"])
+        fails("--output is required", arguments=["pipeline", "graph", "deferred"])
+        fails("-o", ".svg or .dot", arguments=["pipeline", "graph", "deferred", "-o", "a.txt"])
+        fails("-o", "does not exist", arguments=["pipeline", "graph", "deferred", "-o", "nowhere/a.svg"])
+        fails("--size", "1280x720", arguments=["pipeline", "print", "deferred", "--size", "3"])
+
     def test_no_words_print_the_help(self):
         self.assert_fails(2, "render", "compare", arguments=[])
-        self.assert_fails(2, "list", "show", arguments=["pass"])
+        self.assert_fails(2, "Usage: lucerna pass", "list", "show", arguments=["pass"])
 
     # Input: exit 3
 
