@@ -80,7 +80,8 @@ Result<int> compare(const Options& options, bool json) {
   const ErrorMap flip = hdr ? flipHdr(reference, test, options.flip, maskImage).map
                             : flipLdr(reference, test, options.flip, maskImage);
   const PixelMetrics pixels = pixelMetrics(reference, test, maskImage);
-  if (!options.heatmap.empty()) LUCERNA_TRY_VOID(writeImage(options.heatmap, heatMap(flip.error)));
+  if (!options.heatmap.empty())
+    LUCERNA_TRY_VOID(writeImage(options.heatmap, heatMap(flip.error, maskImage)));
 
   if (json)
     printJson({{"flip",
@@ -113,7 +114,7 @@ void addCompare(CommandLine& line) {
   command->add_option("REFERENCE", options->reference, "picture taken as true")->required();
   command->add_option("TEST", options->test, "picture to judge")->required();
   command->add_option("--heatmap", options->heatmap, "write the FLIP error as a coloured picture");
-  command->add_option("--mask", options->mask, "picture; black pixels do not count");
+  command->add_option("--mask", options->mask, "picture; pixels that are black in it do not count");
   command
       ->add_option_function<double>(
           "--fail-above", [options](double value) { options->failAbove = value; },

@@ -57,7 +57,8 @@ struct PixelMetrics {
 PixelMetrics pixelMetrics(const Image& reference, const Image& test, const Image* mask = nullptr);
 
 // Colours for an error map in [0, 1], from black over violet and orange to pale yellow, of evenly
-// growing lightness: U8 RGB.
-Image heatMap(const Image& error);
+// growing lightness: U8 RGB. Where the mask is 0 a grey that no error has: kMaskedGrey.
+inline constexpr std::uint8_t kMaskedGrey = 110;
+Image heatMap(const Image& error, const Image* mask = nullptr);
 
 }  // namespace lucerna

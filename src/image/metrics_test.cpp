@@ -222,5 +222,22 @@ TEST(HeatMap, GrowsInLightness) {
   }
 }
 
+TEST(HeatMap, ShowsWhatTheMaskLeavesOutInAGreyThatNoErrorHas) {
+  Image ramp(256, 1, 1, ComponentType::F32), mask(256, 1, 1, ComponentType::U8);
+  for (int x = 0; x < 256; ++x) {
+    *ramp.pixel<float>(x, 0) = static_cast<float>(x) / 255;
+    *mask.pixel<std::uint8_t>(x, 0) = x % 2 == 0 ? 0 : 255;
+  }
+  const Image all = heatMap(ramp), masked = heatMap(ramp, &mask);
+  const std::array grey{kMaskedGrey, kMaskedGrey, kMaskedGrey};
+  for (int x = 0; x < 256; ++x) {
+    const auto* shown = masked.pixel<std::uint8_t>(x, 0);
+    const auto* error = all.pixel<std::uint8_t>(x, 0);
+    EXPECT_TRUE(std::equal(shown, shown + 3, x % 2 == 0 ? grey.data() : error)) << x;
+    EXPECT_GT(std::max(std::abs(error[0] - kMaskedGrey), std::abs(error[1] - kMaskedGrey)), 16)
+        << x;
+  }
+}
+
 }  // namespace
 }  // namespace lucerna

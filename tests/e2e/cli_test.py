@@ -211,6 +211,12 @@ class CliTest(unittest.TestCase):
         self.assertEqual(set(json.loads(other.stdout)), {"flip", "psnr", "ssim", "rmse"})
         self.assertEqual(set(json.loads(other.stdout)["flip"]), {"mean", "weighted_median", "p95", "max"})
         self.assertEqual(png_size(self.folder / "e.png"), (64, 36))
+        # A mask whose left half is black, as TGA.
+        (self.folder / "mask.tga").write_bytes(struct.pack("<BBBHHBHHHHBB", 0, 0, 3, 0, 0, 0, 0, 0, 64, 36, 8, 32) +
+                                               (b"\0" * 32 + b"\xff" * 32) * 36)
+        self.assert_ok(self.lucerna("compare", "a.png", "b.png", "--mask", "mask.tga", "--heatmap", "masked.png"))
+        masked = self.lucerna("compare", "e.png", "masked.png", "--json")
+        self.assertGreater(json.loads(masked.stdout)["flip"]["mean"], 0.1)
         self.assert_fails(3, "64x36", "32x32", arguments=["compare", "a.png", "c.png"])
 
     def test_json_everywhere(self):
