@@ -8,12 +8,24 @@
 namespace lucerna::app {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 // A CSV field; row names may hold anything.
 std::string quoted(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);
   return result + '"';
+}
+
+// Of a step or of a frame.
+template <typename Cost>
+Json costJson(const Cost& cost) {
+  return {{"cpu_ms", cost.cpuMs},
+          {"gpu_ms", cost.gpuMs},
+          {"draws", cost.counters.draws},
+          {"primitives", cost.counters.primitives},
+          {"texture_bytes", cost.textureBytes}};
 }
 
 struct Mean {
@@ -27,35 +39,37 @@ struct Mean {
 
 std::string ProfileLog::csv() const {
   std::string text = "frame,pass,view,cpu_ms,gpu_ms,draws,primitives,texture_bytes,gpu_clock\n";
-  for (const graph::FrameProfile& frame : frames_)
+  // Of a step or of the frame.
+  const auto add = [&](std::uint64_t frame, const std::string& what, const auto& cost) {
+    text +=
+        fmt::format("{},{},{:.4f},{:.4f},{},{},{},{}\n", frame, what, cost.cpuMs, cost.gpuMs,
+                    cost.counters.draws, cost.counters.primitives, cost.textureBytes, gpuClock_);
+  };
+  for (const graph::FrameProfile& frame : frames_) {
     for (const graph::StepProfile& step : frame.steps)
-      text += fmt::format("{},{},{},{:.4f},{:.4f},{},{},{},{}\n", frame.frame, quoted(step.row),
-                          step.view, step.cpuMs, step.gpuMs, step.counters.draws,
-                          step.counters.primitives, step.textureBytes, gpuClock_);
+      add(frame.frame, fmt::format("{},{}", quoted(step.row), step.view), step);
+    add(frame.frame, "(frame),", frame);
+  }
   return text;
 }
 
 std::string ProfileLog::json() const {
-  nlohmann::ordered_json frames = nlohmann::ordered_json::array();
+  Json frames = Json::array();
   for (const graph::FrameProfile& frame : frames_) {
-    nlohmann::ordered_json passes = nlohmann::ordered_json::array();
-    for (const graph::StepProfile& step : frame.steps)
-      passes.push_back({{"pass", step.row},
-                        {"view", step.view},
-                        {"cpu_ms", step.cpuMs},
-                        {"gpu_ms", step.gpuMs},
-                        {"draws", step.counters.draws},
-                        {"primitives", step.counters.primitives},
-                        {"texture_bytes", step.textureBytes}});
-    frames.push_back({{"frame", frame.frame},
-                      {"cpu_ms", frame.cpuMs},
-                      {"gpu_ms", frame.gpuMs},
-                      {"passes", std::move(passes)}});
+    Json passes = Json::array();
+    for (const graph::StepProfile& step : frame.steps) {
+      Json pass{{"pass", step.row}, {"view", step.view}};
+      pass.update(costJson(step));
+      passes.push_back(std::move(pass));
+    }
+    Json json{{"frame", frame.frame}};
+    json.update(costJson(frame));
+    json["passes"] = std::move(passes);
+    frames.push_back(std::move(json));
   }
-  return nlohmann::ordered_json{
-             {"lucerna", "profile/1"}, {"gpu_clock", gpuClock_}, {"frames", std::move(frames)}}
-             .dump(1) +
-         "\n";
+  const Json document{
+      {"lucerna", "profile/1"}, {"gpu_clock", gpuClock_}, {"frames", std::move(frames)}};
+  return document.dump(1) + "\n";
 }
 
 std::string ProfileLog::table() const {
@@ -77,28 +91,29 @@ std::string ProfileLog::table() const {
     }
   std::string text = fmt::format("{:24} {:>4} {:>9} {:>9} {:>8} {:>11} {:>8}\n", "pass", "view",
                                  "CPU ms", "GPU ms", "draws", "primitives", "MiB");
-  double cpu = 0, gpu = 0;
-  for (const Mean& mean : means) {
-    cpu += mean.cpuMs;
-    gpu += mean.gpuMs;
-    text += fmt::format("{:24} {:4} {:9.2f} {:9.2f} {:8.0f} {:11.0f} {:8.1f}\n", mean.row,
-                        mean.view, mean.cpuMs, mean.gpuMs, mean.draws, mean.primitives,
+  Mean whole;
+  const auto addLine = [&](const Mean& mean, const std::string& name, const std::string& view) {
+    text += fmt::format("{:24} {:>4} {:9.2f} {:9.2f} {:8.0f} {:11.0f} {:8.1f}\n", name, view,
+                        mean.cpuMs, mean.gpuMs, mean.draws, mean.primitives,
                         static_cast<double>(mean.textureBytes) / (1 << 20));
+  };
+  for (const Mean& mean : means) {
+    whole.cpuMs += mean.cpuMs;
+    whole.gpuMs += mean.gpuMs;
+    whole.draws += mean.draws;
+    whole.primitives += mean.primitives;
+    addLine(mean, mean.row, std::to_string(mean.view));
   }
-  return text + fmt::format("{:24} {:4} {:9.2f} {:9.2f}   mean of {} frame{}{}; GPU clock: {}\n",
-                            "all", "", cpu, gpu, frames_.size() - first, count > 1 ? "s" : "",
-                            first > 0 ? " (the first left out)" : "", gpuClock_);
+  whole.textureBytes = frames_.empty() ? 0 : frames_.back().textureBytes;
+  addLine(whole, "all", "");
+  return text + fmt::format("mean of {} frame{}{}; GPU clock: {}\n", frames_.size() - first,
+                            count > 1 ? "s" : "", first > 0 ? " (the first left out)" : "",
+                            gpuClock_);
 }
 
 Status ProfileLog::checkPath(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".csv" || extension == ".json") {
-    std::error_code noFolder;
-    const auto folder = std::filesystem::path(path).parent_path();
-    if (folder.empty() || std::filesystem::is_directory(folder, noFolder)) return {};
-    return error(ErrorKind::Usage, "--profile: the folder '{}' does not exist; make it first",
-                 folder.string());
-  }
+  if (extension == ".csv" || extension == ".json") return checkFolderOf(path, "--profile");
   return error(ErrorKind::Usage, "--profile: '{}' ends in '{}'; wanted .csv or .json", path,
                extension);
 }

@@ -18,7 +18,8 @@ class ProfileLog {
   bool empty() const { return frames_.empty(); }
   const std::string& gpuClock() const { return gpuClock_; }
 
-  // One line a pass, view and frame:
+  // One line a pass, view and frame, then one for the whole frame, whose pass is "(frame)" and
+  // whose view is empty:
   // frame,pass,view,cpu_ms,gpu_ms,draws,primitives,texture_bytes,gpu_clock
   std::string csv() const;
   std::string json() const;

@@ -23,6 +23,13 @@ gpu::Counters operator-(const gpu::Counters& a, const gpu::Counters& b) {
           .uploads = a.uploads - b.uploads,
           .targetSwitches = a.targetSwitches - b.targetSwitches};
 }
+gpu::Counters operator+(const gpu::Counters& a, const gpu::Counters& b) {
+  return {.draws = a.draws + b.draws,
+          .dispatches = a.dispatches + b.dispatches,
+          .primitives = a.primitives + b.primitives,
+          .uploads = a.uploads + b.uploads,
+          .targetSwitches = a.targetSwitches + b.targetSwitches};
+}
 
 // A pass at work for one row.
 struct Row {
@@ -74,8 +81,9 @@ struct Executor::Impl {
   BoundPort bind(const PortDescription& port, std::size_t version, std::size_t view, bool previous);
   std::size_t useResource(const std::string& name);
   void findResources(const Imports& imports, bool perView);
-  Status execute(const FrameInput& input,
-                 const std::function<void(int, const gpu::Texture&)>& onView);
+  using OnView = std::function<void(int view, const gpu::Texture& output)>;
+  Status execute(const FrameInput& input, const OnView& onView);
+  Status runViews(const FrameInput& input, PassContext& context, const OnView& onView);
   void runStep(std::size_t index, PassContext& context);
   void runPass(RunStep& run, PassContext& context);
   void runFill(const Step& step);
@@ -252,14 +260,11 @@ void Executor::Impl::findResources(const Imports& imports, bool perView) {
   }
 }
 
-Status Executor::Impl::execute(const FrameInput& input,
-                               const std::function<void(int, const gpu::Texture&)>& onView) {
+Status Executor::Impl::execute(const FrameInput& input, const OnView& onView) {
   if (!ready)
     return error(ErrorKind::Pipeline, "there is no valid pipeline: correct the faults reported");
-  const auto begin = Clock::now();
+  profile = {};
   profile.frame = input.frame;
-  profile.steps.clear();
-  profile.gpuMs = 0;
   const bool perSceneRuns = input.sceneChanged || rebuilt;
   if (storage.prepareViews(std::max<std::size_t>(1, input.views.size()))) bindPorts();
   storage.beginFrame(input.cut, perSceneRuns);
@@ -273,17 +278,23 @@ Status Executor::Impl::execute(const FrameInput& input,
                       .seed = input.seed};
   for (std::size_t s = 0; s < firstPerView; ++s)
     if (perSceneRuns || schedule.steps[s].frequency != Frequency::PerScene) runStep(s, context);
+  const Status drawn = runViews(input, context, onView);
+  rebuilt = rebuilt && !drawn;
+  if (profiling) finishProfile();
+  return drawn;
+}
+
+Status Executor::Impl::runViews(const FrameInput& input, PassContext& context,
+                                const OnView& onView) {
   for (std::size_t view = 0; view < input.views.size(); ++view) {
     findResources(input.views[view], true);
     context.view = static_cast<int>(view);
     for (std::size_t s = firstPerView; s < steps.size(); ++s) runStep(s, context);
+    LUCERNA_TRY_VOID(takeShaderErrors());
     currentView = view;
     if (onView) onView(context.view, *textureOf(schedule.output, view));
   }
-  rebuilt = false;
-  if (profiling) finishProfile();
-  profile.cpuMs = msSince(begin);
-  return takeShaderErrors();
+  return {};
 }
 
 void Executor::Impl::runStep(std::size_t index, PassContext& context) {
@@ -342,8 +353,13 @@ void Executor::Impl::finishProfile() {
   for (const auto& [name, ms] : device.takeTimes()) {
     if (next == profile.steps.size() || profile.steps[next].row != name) continue;
     profile.steps[next++].gpuMs = ms;
-    profile.gpuMs += ms;
   }
+  for (const StepProfile& step : profile.steps) {
+    profile.cpuMs += step.cpuMs;
+    profile.gpuMs += step.gpuMs;
+    profile.counters = profile.counters + step.counters;
+  }
+  profile.textureBytes = storage.textureBytes();
 }
 
 Status Executor::Impl::takeShaderErrors() {

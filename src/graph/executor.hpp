@@ -48,10 +48,14 @@ struct StepProfile {
   gpu::Counters counters;
   std::uint64_t textureBytes = 0;  // of the textures it wrote
 };
+// One frame's cost; all but `frame` is empty while profiling is off.
 struct FrameProfile {
   std::uint64_t frame = 0;
-  std::vector<StepProfile> steps;  // empty while profiling is off
-  double cpuMs = 0, gpuMs = 0;     // gpuMs: the sum of the steps
+  std::vector<StepProfile> steps;
+  double cpuMs = 0, gpuMs = 0;  // sums over the steps
+  gpu::Counters counters;       // sums over the steps
+  // Of all textures that the pipeline holds: less than the steps' sum, for they share.
+  std::uint64_t textureBytes = 0;
 };
 
 class Executor {
@@ -71,8 +75,8 @@ class Executor {
   Status setParam(const std::string& row, const std::string& param, const Value& value);
 
   // Runs all steps; after each view's steps calls onView(view, output) while its textures are
-  // alive. A shader that does not compile is an error (ErrorKind::Pipeline). All resources that the
-  // pipeline reads must be given (asserted).
+  // alive. A shader that does not compile is an error (ErrorKind::Pipeline), and its view is not
+  // handed over. All resources that the pipeline reads must be given (asserted).
   Status execute(const FrameInput& input,
                  const std::function<void(int view, const gpu::Texture& output)>& onView);
   // A kept value of the view just drawn, as named in setPipeline; valid inside onView. Null if that

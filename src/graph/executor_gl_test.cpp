@@ -199,11 +199,26 @@ class Broken : Counted {
     d.pass("Broken", "Its shader does not exist.");
     d.write("a", &Ports::a).texture(Format::R32Float);
   }
-  explicit Broken(gpu::Device& device) {
+  explicit Broken(gpu::Device& device) { askForProgram(device); }
+  void execute(PassContext&, const Params&, const Ports&) {}
+  static void askForProgram(gpu::Device& device) {
     static_cast<void>(
         device.program({.vertex = "gpu/fullscreen.vert", .fragment = "no/such.frag"}));
   }
-  void execute(PassContext&, const Params&, const Ports&) {}
+};
+
+class BrokenLater : Counted {
+ public:
+  using Params = Broken::Params;
+  using Ports = Broken::Ports;
+  static void describe(PassInfo<Params, Ports>& d) {
+    d.pass("BrokenLater", "Its shader does not exist, which shows when it draws.");
+    d.write("a", &Ports::a).texture(Format::R32Float);
+  }
+  explicit BrokenLater(gpu::Device&) {}
+  void execute(PassContext& context, const Params&, const Ports&) {
+    Broken::askForProgram(context.device);
+  }
 };
 
 class ExecutorGlTest : public gpu::GlTest {
@@ -220,6 +235,7 @@ class ExecutorGlTest : public gpu::GlTest {
     registry_.add<MakeNumber>();
     registry_.add<ShowNumber>();
     registry_.add<Broken>();
+    registry_.add<BrokenLater>();
     registry_.addResource<Number>("number", "A number for every view.", true);
     executor_ = std::make_unique<Executor>(device(), registry_);
     executed = 0;
@@ -370,6 +386,17 @@ TEST_F(ExecutorGlTest, AShaderThatDoesNotCompileIsAPipelineError) {
   }
 }
 
+TEST_F(ExecutorGlTest, AViewWhoseShaderDoesNotCompileIsNotHandedOver) {
+  ASSERT_TRUE(executor_->setPipeline(pipelineOf({"BrokenLater"}, "BrokenLater.a"), {8, 4}));
+  const Imports view;
+  bool handedOver = false;
+  const Status status =
+      executor_->execute({.views = {&view, 1}}, [&](int, const Texture&) { handedOver = true; });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
+  EXPECT_FALSE(handedOver);
+}
+
 TEST_F(ExecutorGlTest, TexturesLargerThanTheDriversAreAnError) {
   const Status status = executor_->setPipeline(pipelineOf({"Constant"}, "Constant.a"), {100000, 4});
   ASSERT_FALSE(status);
@@ -391,6 +418,27 @@ TEST_F(ExecutorGlTest, ProfileHasEveryStepOfEveryView) {
   executor_->setProfiling(false);
   frame();
   EXPECT_TRUE(executor_->profile().steps.empty());
+  EXPECT_EQ(executor_->profile().textureBytes, 0u);
+}
+
+// Views take turns with the textures, so the frame holds less than its steps wrote.
+TEST_F(ExecutorGlTest, ProfileSumsUpTheFrame) {
+  set({row("Constant", "C", 1), row("AddInPlace", "U", 10), FakeRow("Sum").reads("b", "C.a")});
+  executor_->setProfiling(true);
+  frame(false, false, {0, 0});
+  const FrameProfile& profile = executor_->profile();
+  double cpuMs = 0, gpuMs = 0;
+  std::uint64_t stepBytes = 0;
+  for (const StepProfile& step : profile.steps) {
+    cpuMs += step.cpuMs;
+    gpuMs += step.gpuMs;
+    stepBytes += step.textureBytes;
+  }
+  EXPECT_GT(cpuMs, 0);
+  EXPECT_DOUBLE_EQ(profile.cpuMs, cpuMs);
+  EXPECT_DOUBLE_EQ(profile.gpuMs, gpuMs);
+  EXPECT_EQ(profile.textureBytes, executor_->schedule().bytes());
+  EXPECT_LT(profile.textureBytes, stepBytes);
 }
 
 TEST_F(ExecutorGlTest, InstancesStayWithTheirRow) {

@@ -86,6 +86,13 @@ void Storage::beginFrame(bool cut, bool perSceneRuns) {
   beginFrameOf(data_, cut, perSceneRuns);
 }
 
+std::uint64_t Storage::textureBytes() const {
+  std::uint64_t bytes = 0;
+  for (const TextureSlots& slots : textures_)
+    bytes += slots.physical.desc.bytes() * slots.views.size() * (slots.physical.history ? 2 : 1);
+  return bytes;
+}
+
 gpu::Texture Storage::take(const gpu::TextureDesc& desc, const std::string& label) {
   const auto found = std::find_if(spare_.begin(), spare_.end(),
                                   [&](const gpu::Texture& t) { return t.desc() == desc; });

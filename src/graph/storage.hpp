@@ -51,6 +51,7 @@ class Storage {
   void beginFrame(bool cut, bool perSceneRuns);
 
   std::size_t viewCount() const { return viewCount_; }
+  std::uint64_t textureBytes() const;  // of all textures, all views
   TextureSlots& texture(std::size_t physical) { return textures_[physical]; }
   DataSlots& data(std::size_t physical) { return data_[physical]; }
 

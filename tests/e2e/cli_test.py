@@ -176,11 +176,49 @@ class CliTest(unittest.TestCase):
         self.assertEqual(document["files"], ["f-00.png", "f-01.png"])
         self.assertEqual(document["gl_messages"], 0)
         self.assertEqual(png_size(self.folder / "f-01.png"), (64, 36))
-        with open(self.folder / "p.csv", newline="") as file:
-            rows = list(csv.DictReader(file))
-        self.assertEqual({row["frame"] for row in rows}, {"0", "1"})
-        self.assertLessEqual({"Cull", "GBuffer", "Lighting", "ToneMap"}, {row["pass"] for row in rows})
-        self.assertGreater(sum(int(row["primitives"]) for row in rows if row["pass"] == "GBuffer"), 100)
+        self.assertEqual(len(self.read_profile("p.csv")), 2)
+
+    def check_costs(self, frames):
+        """frames: of each its passes and then itself, as rows of numbers."""
+        for *passes, frame in frames:
+            self.assertLessEqual({"Cull", "GBuffer", "Lighting", "ToneMap"}, {row["pass"] for row in passes})
+            for key in ("cpu_ms", "gpu_ms", "draws", "primitives"):
+                self.assertAlmostEqual(frame[key], sum(row[key] for row in passes), delta=0.001, msg=key)
+            by_name = {row["pass"]: row for row in passes}
+            self.assertGreater(by_name["GBuffer"]["primitives"], 100)
+            self.assertGreater(by_name["GBuffer"]["draws"], 1)
+            self.assertGreater(by_name["GBuffer"]["gpu_ms"], 0)
+            self.assertGreater(by_name["Cull"]["cpu_ms"], 0)
+            self.assertEqual(by_name["ToneMap"]["texture_bytes"], 64 * 36 * 4)
+            self.assertGreater(frame["texture_bytes"], by_name["GBuffer"]["texture_bytes"])
+            self.assertLess(frame["texture_bytes"], sum(row["texture_bytes"] for row in passes))
+
+    def read_profile(self, name):
+        """The rows of each frame of a CSV."""
+        with open(self.folder / name, newline="") as file:
+            reader = csv.DictReader(file)
+            rows = [{key: value if key in ("pass", "view", "gpu_clock") else float(value) for key, value in row.items()}
+                    for row in reader]
+            self.assertEqual(reader.fieldnames, ["frame", "pass", "view", "cpu_ms", "gpu_ms", "draws", "primitives",
+                                                 "texture_bytes", "gpu_clock"])
+        frames = {}
+        for row in rows:
+            frames.setdefault(row["frame"], []).append(row)
+        for row in (frame[-1] for frame in frames.values()):
+            self.assertEqual((row["pass"], row["view"]), ("(frame)", ""))
+        return list(frames.values())
+
+    def test_profiles_have_the_costs_of_passes_and_frames(self):
+        for name in ("p.csv", "p.json"):
+            self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--frames", 2, "-o", "f-%d.png", "--profile", name))
+        frames = self.read_profile("p.csv")
+        self.assertEqual(len(frames), 2)
+        self.check_costs(frames)
+        document = json.loads((self.folder / "p.json").read_text())
+        self.assertEqual(document["lucerna"], "profile/1")
+        self.assertEqual([frame["frame"] for frame in document["frames"]], [0, 1])
+        self.assertEqual(document["gpu_clock"], frames[0][0]["gpu_clock"])
+        self.check_costs([[*frame["passes"], frame] for frame in document["frames"]])
 
     def test_render_to_exr_hdr_and_profile_as_json(self):
         for name, flags in (("a.exr", ["--layers", "color,depth,normal,albedo", "--exr-type", "float"]), ("a.hdr", [])):
