@@ -33,6 +33,25 @@ Json document(const app::Session& session, const app::FrameWriter& writer, doubl
           {"warnings", session.scene.warnings}};
 }
 
+Status renderFrames(app::Session& session, app::FrameWriter& writer, app::ProfileLog* profile) {
+  Progress progress("rendering", session.settings.frames);
+  const app::FrameSink write = [&](app::Session& s, const gpu::Texture& output) {
+    return writer.write(s, output);
+  };
+  while (session.frame < session.settings.frames) {
+    LUCERNA_TRY_VOID(app::runFrame(session, profile, write));
+    progress.advance();
+  }
+  return {};
+}
+
+Status writeProfile(const app::ProfileLog& profile, const std::string& path) {
+  if (profile.empty()) return {};  // not asked for, or cancelled before the first frame
+  LUCERNA_TRY_VOID(profile.write(path));
+  log::info("mean cost of a frame\n{}", profile.table());
+  return {};
+}
+
 Result<int> render(const Options& options, bool json) {
   const auto start = std::chrono::steady_clock::now();
   LUCERNA_TRY(writer, app::FrameWriter::create(options.output, options.render));
@@ -40,18 +59,11 @@ Result<int> render(const Options& options, bool json) {
   if (!profilePath.empty()) LUCERNA_TRY_VOID(app::ProfileLog::checkPath(profilePath));
   LUCERNA_TRY(session, app::openSession(options.render, writer.layers()));
   app::ProfileLog profile(session->device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer");
-
-  Progress progress("rendering", options.render.frames);
-  for (std::uint64_t i = 0; i < options.render.frames; ++i) {
-    LUCERNA_TRY_VOID(app::runFrame(
-        *session, profilePath.empty() ? nullptr : &profile,
-        [&](app::Session& s, const gpu::Texture& output) { return writer.write(s, output); }));
-    progress.advance();
-  }
-  if (!profilePath.empty()) {
-    LUCERNA_TRY_VOID(profile.write(profilePath));
-    log::info("mean cost of a frame\n{}", profile.table());
-  }
+  const Status drawn = renderFrames(*session, writer, profilePath.empty() ? nullptr : &profile);
+  // What was drawn before Ctrl-C is whole and stays, with its profile.
+  if (drawn || drawn.error().kind == ErrorKind::Cancelled)
+    LUCERNA_TRY_VOID(writeProfile(profile, profilePath));
+  LUCERNA_TRY_VOID(drawn);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (json)
     printJson(document(*session, writer, seconds.count()));

@@ -281,8 +281,9 @@ class CliTest(unittest.TestCase):
         self.assert_ok(run)
         self.assertEqual(run.stdout + run.stderr, "")
 
-    def test_interrupt_ends_with_130_and_leaves_no_partial_file(self):
-        process = subprocess.Popen([PROGRAM, "render", ATRIUM, *SMALL, "--frames", "100000", "-o", "f-%06d.png"],
+    def interrupted(self, *flags):
+        """Renders without end, interrupts after the first frame, and returns the frames that are there."""
+        process = subprocess.Popen([PROGRAM, "render", ATRIUM, *SMALL, "--frames", "100000", "-o", "f-%06d.png", *flags],
                                    cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         deadline = time.monotonic() + 60
         while not list(self.folder.glob("f-*.png")) and time.monotonic() < deadline:
@@ -290,10 +291,24 @@ class CliTest(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
-        for path in self.folder.iterdir():
-            self.assertTrue(path.name.startswith("f-") and path.suffix == ".png", path.name)
+        pictures = sorted(self.folder.glob("f-*.png"))
+        self.assertEqual(sorted(path for path in self.folder.iterdir() if path.suffix == ".png"), pictures)
+        for number, path in enumerate(pictures):
+            self.assertEqual(path.name, f"f-{number:06}.png")
             self.assertEqual(png_size(path), (64, 36))
             self.assertTrue(path.read_bytes().endswith(b"IEND\xaeB`\x82"), path.name)
+        return pictures
+
+    def test_interrupt_ends_with_130_and_leaves_no_partial_file(self):
+        pictures = self.interrupted()
+        self.assertEqual(sorted(self.folder.iterdir()), pictures)
+
+    def test_interrupt_keeps_the_profile_of_what_was_drawn(self):
+        pictures = self.interrupted("--profile", "p.csv")
+        frames = self.read_profile("p.csv")
+        self.assertEqual(len(frames), len(pictures))
+        self.check_costs(frames)
+        self.assertEqual(sorted(self.folder.iterdir()), [*pictures, self.folder / "p.csv"])
 
 
 if __name__ == "__main__":
