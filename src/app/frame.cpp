@@ -1,5 +1,7 @@
 #include "app/frame.hpp"
 
+#include <utility>
+
 #include "core/log.hpp"
 #include "core/progress.hpp"
 #include "scene/view.hpp"
@@ -30,11 +32,12 @@ void applySceneChanges(Session& s) {
                      size);
 }
 
-// A pipeline that does not load or validate any more is reported, and the last good one goes on.
+// What does not compile or load any more is reported, and what was there goes on.
 void reloadChangedFiles(Session& s) {
   if (!s.watch) return;
   if (const int count = s.device->reloadChangedShaders(); count > 0)
     log::info("reloaded {} shader program{}", count, count == 1 ? "" : "s");
+  for (const Error& fault : s.device->takeErrors()) log::error("{}", fault.message);
   std::error_code noFile;
   const auto time = std::filesystem::last_write_time(s.settings.pipeline, noFile);
   if (noFile || time == s.pipelineTime) return;
@@ -44,12 +47,7 @@ void reloadChangedFiles(Session& s) {
     log::error("{}", pipeline.error().message);
     return;
   }
-  const auto validation = graph::validate(*pipeline, s.registry, s.device->capabilities());
-  if (!validation.ok()) {
-    log::error("{}", validation.text());
-    return;
-  }
-  s.pipeline = std::move(*pipeline);
+  s.lastGood = std::exchange(s.pipeline, std::move(*pipeline));
   s.rebuild = true;
 }
 
@@ -66,7 +64,7 @@ Status rebuildSchedule(Session& s) {
   return {};
 }
 
-Status runSteps(Session& s, const FrameSink& sink) {
+Status runSteps(Session& s, const std::function<void(const gpu::Texture&)>& take) {
   graph::Imports shared, view;
   shared.set("scene", s.gpuScene);
   shared.set("lights", s.lights);
@@ -81,9 +79,27 @@ Status runSteps(Session& s, const FrameSink& sink) {
                                                 changes.materials || !changes.movedObjects.empty(),
                                 .shared = std::move(shared),
                                 .views = {&view, 1}};
+  return s.executor->execute(input, [&](int, const gpu::Texture& output) { take(output); });
+}
+
+// Presents or writes.
+Status draw(Session& s, const FrameSink& sink) {
   Status taken;
-  LUCERNA_TRY_VOID(s.executor->execute(
-      input, [&](int, const gpu::Texture& output) { taken = sink(s, output); }));
+  const auto attempt = [&]() -> Status {
+    LUCERNA_TRY_VOID(rebuildSchedule(s));
+    return runSteps(s, [&](const gpu::Texture& output) { taken = sink(s, output); });
+  };
+  Status drawn = attempt();
+  if (!drawn && s.lastGood) {
+    log::error("{}", drawn.error().message);
+    log::warning("{}: the pipeline before goes on; save the file again when it is corrected",
+                 s.settings.pipeline);
+    s.pipeline = *std::exchange(s.lastGood, std::nullopt);
+    s.rebuild = true;
+    drawn = attempt();
+  }
+  LUCERNA_TRY_VOID(drawn);
+  s.lastGood.reset();
   return taken;
 }
 
@@ -105,9 +121,8 @@ Status runFrame(Session& session, ProfileLog* profile, const FrameSink& sink) {
     return error(ErrorKind::Cancelled, "cancelled before frame {}", session.frame);
   applySceneChanges(session);
   reloadChangedFiles(session);
-  LUCERNA_TRY_VOID(rebuildSchedule(session));
   session.executor->setProfiling(profile != nullptr);
-  LUCERNA_TRY_VOID(runSteps(session, sink));  // presents or writes
+  LUCERNA_TRY_VOID(draw(session, sink));
   finishFrame(session, profile);
   return {};
 }

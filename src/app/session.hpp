@@ -28,6 +28,8 @@ struct Session {
   std::vector<LayerKind> wantedLayers;  // to be kept alive for the output
   graph::Registry registry;
   graph::Pipeline pipeline;
+  // While a pipeline that was read again has not yet drawn a frame: the one before.
+  std::optional<graph::Pipeline> lastGood;
   std::filesystem::file_time_type pipelineTime;  // of its file, when it was last read
   scene::Scene scene;
   std::uint32_t camera = 0;              // index in scene.cameras

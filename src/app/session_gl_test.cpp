@@ -196,6 +196,70 @@ TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
   }
 }
 
+// Faults that show only when the schedule is built: a layer that nobody writes any more, a shader
+// that does not compile.
+TEST_F(SessionTest, AReloadedPipelineThatCannotBeDrawnLeavesTheLast) {
+  const std::filesystem::path file = folder_ / "mine.js", shaders = folder_ / "shaders";
+  std::filesystem::create_directories(shaders / "passes/background");
+  ASSERT_TRUE(
+      writeText(shaders / "passes/background/background.frag", "void main() { nonsense; }"));
+  const auto write = [&](const std::string& text, int seconds) {
+    ASSERT_TRUE(writeText(file, text));
+    std::filesystem::last_write_time(
+        file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(seconds));
+  };
+  const std::string rows = "pass('Cull'); pass('GBuffer'); pass('Lighting'); ";
+  write(rows + "pass('ToneMap');", 0);
+  settings_.pipeline = file;
+  settings_.shaderFolder = shaders;
+  auto opened = openSession(settings_, {LayerKind::Albedo});
+  ASSERT_TRUE(opened) << opened.error().message;
+  Session& session = **opened;
+  session.watch = true;
+  std::vector<Image> pictures;
+  const FrameSink keep = [&](Session& s, const gpu::Texture& output) {
+    pictures.push_back(s.device->download(output));
+    return Status();
+  };
+  ASSERT_TRUE(runFrame(session, nullptr, keep));
+  int seconds = 2;
+  for (const std::string& failing : {std::string("pass('Cull'); pass('Forward'); pass('ToneMap');"),
+                                     rows + "pass('Background'); pass('ToneMap');"}) {
+    write(failing, seconds++);
+    for (int frame = 0; frame < 2; ++frame) {
+      const Status status = runFrame(session, nullptr, keep);
+      ASSERT_TRUE(status) << status.error().message;
+      EXPECT_EQ(session.pipeline.passes.size(), 4u);
+      EXPECT_TRUE(std::ranges::equal(pictures.front().bytes(), pictures.back().bytes()));
+    }
+  }
+  EXPECT_EQ(pictures.size(), 5u);
+  static_cast<void>(session.device->takeDebugMessages());
+}
+
+TEST_F(SessionTest, AShaderThatNoLongerCompilesLeavesTheLast) {
+  const std::filesystem::path shader = folder_ / "passes/tone_map/tone_map.frag";
+  std::filesystem::create_directories(shader.parent_path());
+  std::filesystem::copy_file(
+      std::filesystem::path(LUCERNA_SOURCE_DIR) / "src/passes/tone_map/tone_map.frag", shader);
+  settings_.shaderFolder = folder_;
+  auto opened = openSession(settings_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  (*opened)->watch = true;
+  int drawn = 0;
+  const FrameSink count = [&](Session&, const gpu::Texture&) {
+    ++drawn;
+    return Status();
+  };
+  ASSERT_TRUE(runFrame(**opened, nullptr, count));
+  ASSERT_TRUE(writeText(shader, "void main() { nonsense; }"));
+  std::filesystem::last_write_time(
+      shader, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(2));
+  const Status status = runFrame(**opened, nullptr, count);
+  EXPECT_TRUE(status) << status.error().message;
+  EXPECT_EQ(drawn, 2);
+}
+
 TEST_F(SessionTest, AFaultyPipelineRendersNothing) {
   const std::filesystem::path file = folder_ / "bad.json";
   ASSERT_TRUE(writeText(file, R"({"lucerna": "pipeline/1", "passes": [{"type": "Lightning"}]})"));
