@@ -10,10 +10,11 @@
 namespace lucerna::scene {
 namespace {
 
-constexpr float kFovY = 0.9f;                  // rad
-constexpr float kNarrowestAspect = 4.f / 3.f;  // the box fits outputs at least this wide
-constexpr float kLowestRoom = 1.5f;            // m
-constexpr int kDirections = 16;                // around the horizon
+constexpr float kFovY = 0.9f;              // rad
+constexpr float kWidestFrame = 4.f / 3.f;  // width / height that the box is fitted into
+constexpr float kMargin = 1.05f;           // of distance
+constexpr float kLowestRoom = 1.5f;        // m
+constexpr int kDirections = 16;            // around the horizon
 constexpr float kPi = glm::pi<float>();
 
 struct Sight {
@@ -86,37 +87,43 @@ Horizon lookAround(const Scene& scene, vec3 eye) {
   return horizon;
 }
 
-void addCamera(Scene& scene, vec3 eye, vec3 target) {
+// Outputs narrower than `frame` (width / height) keep its width.
+void addCamera(Scene& scene, vec3 eye, vec3 target, float frame) {
   Camera camera;
   camera.name = "default";
   camera.fovY = kFovY;
+  camera.aspect = frame;
   camera.node =
       addNode(scene, "default camera", glm::inverse(glm::lookAt(eye, target, vec3(0.f, 1.f, 0.f))));
   scene.cameras.push_back(camera);
 }
 
-// The nearest eye in the given direction from the box's centre that sees all eight corners.
-vec3 eyeOutside(const Aabb& box, vec3 toEye) {
+// From the nearest eye in the given direction from the box's centre that sees all eight corners.
+void addCameraOutside(Scene& scene, const Aabb& box, vec3 toEye) {
   const vec3 right = glm::normalize(glm::cross(vec3(0.f, 1.f, 0.f), toEye));
   const vec3 up = glm::cross(toEye, right);
   const float tanY = std::tan(0.5f * kFovY);
-  const float tanX = tanY * kNarrowestAspect;
-  float distance = 0.f;
-  for (int i = 0; i < 8; ++i) {
+  const float tanX = tanY * kWidestFrame;
+  std::array<vec3, 8> corners;  // right, up and towards the eye of the box's centre
+  float distance = 1e-3f;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
     const vec3 sign((i & 1) ? 1.f : -1.f, (i & 2) ? 1.f : -1.f, (i & 4) ? 1.f : -1.f);
     const vec3 corner = 0.5f * sign * box.extent();
-    const float needed =
-        std::max(std::abs(glm::dot(corner, right)) / tanX, std::abs(glm::dot(corner, up)) / tanY);
-    distance = std::max(distance, needed + glm::dot(corner, toEye));
+    corners[i] = {glm::dot(corner, right), glm::dot(corner, up), glm::dot(corner, toEye)};
+    const float needed = std::max(std::abs(corners[i].x) / tanX, std::abs(corners[i].y) / tanY);
+    distance = std::max(distance, kMargin * (needed + corners[i].z));
   }
-  return box.center() + toEye * std::max(1.05f * distance, 1e-3f);
+  float frame = 0.f;  // as wide as the box looks
+  for (const vec3& corner : corners)
+    frame = std::max(frame, std::abs(corner.x) / (distance - corner.z) / tanY);
+  addCamera(scene, box.center() + toEye * distance, box.center(), kMargin * frame);
 }
 
 }  // namespace
 
 void addFittingCamera(Scene& scene) {
   const Aabb box = scene.boundsW();
-  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f));
+  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
 
   // A room: from its middle most sight lines end at the front of a wall; from the middle of a solid
   // thing they end at back faces. A car has an inside too, but none to stand in.
@@ -126,7 +133,7 @@ void addFittingCamera(Scene& scene) {
   const auto walls =
       std::count_if(horizon.begin(), horizon.end(), [](const Sight& sight) { return sight.front; });
   if (walls < kDirections * 3 / 4 || box.extent().y < kLowestRoom)
-    return addCamera(scene, eyeOutside(box, glm::normalize(vec3(0.5f, 0.45f, 1.f))), box.center());
+    return addCameraOutside(scene, box, glm::normalize(vec3(0.5f, 0.45f, 1.f)));
 
   // Along the longest free line through the middle, from near its one end.
   int best = 0;
@@ -141,7 +148,7 @@ void addFittingCamera(Scene& scene) {
   }
   const float back = std::min(horizon[best].distance, box.diagonal());
   eye += direction(best) * (0.8f * back);
-  addCamera(scene, eye, eye - direction(best));
+  addCamera(scene, eye, eye - direction(best), 1.f);
 }
 
 }  // namespace lucerna::scene

@@ -173,19 +173,25 @@ TEST(Complete, MakesTangentsOnlyWhereANormalMapIsUsed) {
   EXPECT_EQ(scene.meshes[0].tangents.size(), 4u);
 }
 
+// Cards, a tower and a plank, in outputs of any shape; and as large as fits.
 TEST(Complete, TheCameraSeesTheWholeBox) {
-  for (const float size : {0.01f, 1.f, 3000.f}) {
+  for (const vec2 shape :
+       {vec2(0.01f), vec2(1.f), vec2(3000.f), vec2(1.f, 40.f), vec2(40.f, 1.f)}) {
     Mesh mesh = square();
-    for (vec3& p : mesh.positions) p = size * (p + vec3(5, 0, 0.3f * p.x));
+    for (vec3& p : mesh.positions) p = vec3(shape, shape.x) * (p + vec3(5, 0, 0.3f * p.x));
     Scene scene = sceneOf(std::move(mesh));
     complete(scene);
-    const View view = viewOf(scene, scene.cameras[0], 4.f / 3.f);
-    for (const vec3 p : scene.meshes[0].positions) {
-      const vec4 clip = view.clipFromWorld() * vec4(p, 1.f);
-      EXPECT_LE(std::abs(clip.x), clip.w);
-      EXPECT_LE(std::abs(clip.y), clip.w);
-      EXPECT_GT(clip.z, 0.f);
-      EXPECT_LT(clip.z, clip.w);
+    for (const float aspect : {1.f / 3.f, 1.f, 4.f / 3.f, 3.f}) {
+      const View view = viewOf(scene, scene.cameras[0], aspect);
+      float reach = 0.f;  // 1 at the border of the picture
+      for (const vec3 p : scene.meshes[0].positions) {
+        const vec4 clip = view.clipFromWorld() * vec4(p, 1.f);
+        reach = std::max({reach, std::abs(clip.x / clip.w), std::abs(clip.y / clip.w)});
+        EXPECT_GT(clip.z, 0.f);
+        EXPECT_LT(clip.z, clip.w);
+      }
+      EXPECT_LE(reach, 1.f) << shape.x << " x " << shape.y << " m, aspect " << aspect;
+      EXPECT_GT(reach, 0.4f) << shape.x << " x " << shape.y << " m, aspect " << aspect;
     }
   }
 }
