@@ -1,5 +1,7 @@
 #include "passes/show_bvh/show_bvh.hpp"
 
+#include <cmath>
+
 namespace lucerna::passes {
 
 using gpu::Format;
@@ -12,16 +14,17 @@ void ShowBvh::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("lineColor", &Params::lineColor)
       .color()
       .range(0, 100)
-      .help("Linear radiance of the lines.");
+      .help(
+          "Of the lines on the screen, linear: before ToneMap the scene's exposure is taken out.");
   d.param("hidden", &Params::hidden).help("Show lines behind surfaces, too.");
-  d.read("scene", &Ports::scene).help("The hierarchy over its objects.");
+  d.read("scene", &Ports::scene).help("The hierarchy over its objects; its exposure.");
   d.read("view", &Ports::view).help("The view to draw from.");
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
       .help("Reversed depth of the surfaces that hide lines.");
   d.update("color", &Ports::color)
       .texture(Format::Rgba16Float, Format::Rgba8Unorm)
-      .help("The picture.");
+      .help("The picture, before or after ToneMap.");
 }
 
 std::vector<Aabb> boxesOfLevel(const scene::Bvh& bvh, int level) {
@@ -71,6 +74,8 @@ void ShowBvh::execute(graph::PassContext& context, const Params& params, const P
       *program_,
       {.depthTest = !params.hidden, .cull = gpu::Cull::None, .topology = gpu::Topology::Lines});
   program_->set("lineColor", params.lineColor);
+  program_->set("encoded", ports.color->desc().format == Format::Rgba8Unorm);
+  program_->set("exposure", std::exp2(ports.scene->scene->exposure));
   rendering.buffer("ViewBlock", ports.view->block);
   constexpr std::uint32_t kVerticesOfBox = 24;  // two for each of twelve edges
   rendering.draw(input_, 0, kVerticesOfBox, static_cast<std::uint32_t>(boxes.size()));
