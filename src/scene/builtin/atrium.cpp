@@ -80,7 +80,7 @@ void addShell(Plan& plan) {
     const float z = bayCenter(bay);
     for (const float side : {-1.f, 1.f}) addBay(plan, side, z);
     plan.put(mesh.naveFloor, plan.material.floor, {0, 0, z});
-    plan.put(mesh.beam, plan.material.stone, {0, kCeiling + 0.3f, z});
+    plan.put(mesh.skylight, plan.material.stone, {0, kCeiling, z});
   }
   for (const float side : {-1.f, 1.f}) {
     const float turn = side < 0 ? 0.f : kPi;

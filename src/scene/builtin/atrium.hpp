@@ -51,8 +51,9 @@ std::vector<vec3> atriumLightColors();
 // Indices of the hall's shared meshes.
 struct AtriumMeshes {
   std::uint32_t columnStone, shaft, lowerArch, upperArch, balustrade, coffer, naveFloor, aisleFloor,
-      slab, lowerWall, lowerTrim, upperWall, upperTrim, lattice, pane, aisleCeiling, beam, endWall,
-      endTrim, rose, dais, plinth, robe, head, vase, pot, plant, banner, rod, lamp, bulb, chain;
+      slab, lowerWall, lowerTrim, upperWall, upperTrim, lattice, pane, aisleCeiling, skylight,
+      endWall, endTrim, rose, dais, plinth, robe, head, vase, pot, plant, banner, rod, lamp, bulb,
+      chain;
 };
 AtriumMeshes addAtriumMeshes(Scene& scene);
 

@@ -324,7 +324,7 @@ Mesh trimmedSlab() {
   // stepped cornice along its edge.
   constexpr float x = kBay / 2;
   b.box({-x, -kSlab, kNave - kWall}, {x, 0, 0.6f}, 2, kFaceTop | kFaceBottom | kFaceFront);
-  b.box({-x, -0.12f, 0.6f}, {x, 0.02f, 0.78f}, 1, kFaceTop | kFaceBottom | kFaceFront);
+  b.box({-x, -0.12f, 0.6f}, {x, 0.02f, 0.78f}, 1, kFaceTop | kFaceBottom | kFaceFront | kFaceBack);
   b.box({-x, -0.22f, 0.6f}, {x, -0.12f, 0.69f}, 1, kFaceBottom | kFaceFront);
   return b.take("gallery slab");
 }
@@ -333,6 +333,18 @@ Mesh trim(float height, std::string name) {
   MeshBuilder b;
   wallTrim(b, height);
   return b.take(std::move(name));
+}
+
+// One bay of the open strip: a beam across it, and its upstands, which hide the ceiling's back.
+// y = 0 is the ceiling.
+Mesh skylight() {
+  constexpr float x = kSkylight, z = kBay / 2;
+  MeshBuilder b;
+  b.box({-x, -0.05f, -0.18f}, {x, 0.65f, 0.18f}, 1, kAllFaces & ~(kFaceLeft | kFaceRight));
+  for (const float side : {-1.f, 1.f})
+    b.quad({vec3(side * x, 0, -side * z), vec3(side * x, 0, side * z),
+            vec3(side * x, 0.9f, side * z), vec3(side * x, 0.9f, -side * z)});
+  return b.take("skylight");
 }
 
 Mesh floorTile(float halfWidth, std::string name) {
@@ -376,8 +388,7 @@ AtriumMeshes addAtriumMeshes(Scene& scene) {
   m.lattice = add(windowQuad(-0.38f, "lattice"));
   m.pane = add(windowQuad(-0.3f, "pane"));
   m.aisleCeiling = add(aisleCeiling());
-  m.beam =
-      add(boxMesh({-kSkylight, -0.35f, -0.18f}, {kSkylight, 0.35f, 0.18f}, kAllFaces, 1, "beam"));
+  m.skylight = add(skylight());
   m.endWall = add(endWall());
   m.endTrim = add(endTrim());
   m.rose = add(rose());
