@@ -34,7 +34,8 @@ inline constexpr float kPitch = 247.5f;  // between street axes: 8 blocks and a 
 inline constexpr float kRoad = 20.f;     // kerb to kerb
 inline constexpr float kBlockHalf = (kPitch - kRoad) / 2;
 inline constexpr float kSidewalk = 5.f;
-inline constexpr float kKerb = 0.15f;  // height
+inline constexpr float kYard = 2 * (kBlockHalf - kSidewalk);  // side of a block within pavements
+inline constexpr float kKerb = 0.15f;                         // height
 inline constexpr float kLampSpacing = 28.f;
 inline constexpr int kLampSlots = 8;  // along one side of a block
 inline constexpr std::uint32_t kLamps = 106, kSwitchable = 13;
@@ -61,7 +62,7 @@ const Facade& facade(Style style);
 struct Materials {
   std::array<std::uint32_t, kStyles> facades;
   std::uint32_t shops, roof, tiles, sidewalk, yard, road, zebra, crossing, concrete, deck,
-      tunnelWall, grass, tree, metal, dark, neon, tail, beam;
+      tunnelWall, tunnelCeiling, grass, tree, metal, dark, neon, tail, beam;
   std::array<std::uint32_t, 4> paints;
   std::array<std::uint32_t, 3> glows;  // of lamp heads, by Tint
 };

@@ -204,7 +204,7 @@ void addPavement(Parts& parts, const Materials& m) {
     stone.quad({vec3(-a, 0, a), vec3(a, 0, a), vec3(a, y, a), vec3(-a, y, a)}, 2);
   }
   parts.transform = mat4(1.f);
-  parts.of(m.yard).quad({vec3(-b, y, b), vec3(b, y, b), vec3(b, y, -b), vec3(-b, y, -b)}, 16);
+  parts.of(m.yard).quad({vec3(-b, y, b), vec3(b, y, b), vec3(b, y, -b), vec3(-b, y, -b)}, kYard);
 }
 
 void addTree(MeshBuilder& b, vec3 foot, float height, float angle) {

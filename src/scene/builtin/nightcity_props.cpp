@@ -47,6 +47,21 @@ Mesh carBody() {
   return b.take("car body");
 }
 
+// A pane between two heights of the cabin's side, from z0 to z1 at the bottom, narrower at the top.
+void addSideWindow(MeshBuilder& b, float side, float z0, float z1, vec2 lean) {
+  constexpr float kLow = 1.08f, kHigh = 1.36f;
+  // The cabin leans inward from the belt line at y = 1 to the roof at 1.43.
+  const auto point = [&](float y, float z) {
+    return vec3(side * (glm::mix(kCarHalf, 0.66f, (y - 1.f) / 0.43f) + 0.015f), y, z);
+  };
+  const vec3 a = point(kLow, z0), c = point(kLow, z1);
+  const vec3 d = point(kHigh, z1 + lean.y), e = point(kHigh, z0 + lean.x);
+  if (side > 0)
+    b.quad({c, a, e, d});
+  else
+    b.quad({a, c, d, e});
+}
+
 // Windows a finger's breadth above the body, and wheels.
 Mesh carDark() {
   MeshBuilder b;
@@ -59,11 +74,19 @@ Mesh carDark() {
   // The windscreen is seen from the other side: from the roof down.
   pane(kOutline[4], kOutline[5], -0.05f, {0.02f, 0.02f});
   for (const float side : {-1.f, 1.f}) {
+    addSideWindow(b, side, -1.6f, -0.5f, {0.35f, 0.f});
+    addSideWindow(b, side, -0.4f, 0.65f, {0.f, -0.5f});
     for (const float z : {-1.32f, 1.3f}) {
+      // The tyre below the body, then the wheel's outside.
+      const float in = side * 0.6f, out = side * 0.88f;
+      b.setTransform(mat4(1.f));
+      b.box({std::min(in, out), 0.04f, z - 0.15f}, {std::max(in, out), 0.3f, z + 0.15f}, 1,
+            kFaceFront | kFaceBack);
       b.setTransform(translated({side * 0.74f, 0.32f, z}) *
                      glm::rotate(mat4(1.f), -side * kPi / 2, vec3(0, 0, 1)));
       b.lathe(std::vector<vec2>{{0.32f, 0.14f}, {0, 0.16f}}, {.segments = 8});
     }
+    b.setTransform(mat4(1.f));
   }
   return b.take("car glass and wheels");
 }

@@ -124,7 +124,7 @@ void addTunnel(City& city) {
   constexpr float kOuter = kTunnelHalf + 3, kTop = kTunnelSpring + kTunnelRise + 1.8f;
   constexpr float kLength = kTunnelFrom - kTunnelTo;
   const vec3 entrance(0, 0, kTunnelFrom);
-  MeshBuilder portal, vault, hill;
+  MeshBuilder portal, walls, ceiling, hill;
   addPortal(portal, kOuter, kTop);
   portal.box({-kOuter - 0.3f, kTop, -1.2f}, {kOuter + 0.3f, kTop + 0.9f, 0.4f}, 4);
   const std::uint32_t portalMesh = addMesh(city.scene, portal.take("tunnel portal"));
@@ -136,12 +136,16 @@ void addTunnel(City& city) {
   for (std::size_t i = 0; i + 1 < outline.size(); ++i) {
     const vec2 p = outline[i], q = outline[i + 1];
     const float next = v + glm::length(q - p) / 4;
-    vault.quad({vec3(p, 0), vec3(p, -kLength), vec3(q, -kLength), vec3(q, 0)},
-               {vec2(0, -v), vec2(kLength / 4, -v), vec2(kLength / 4, -next), vec2(0, -next)});
+    const bool wall = std::min(p.y, q.y) < kTunnelSpring;
+    (wall ? walls : ceiling)
+        .quad({vec3(p, 0), vec3(p, -kLength), vec3(q, -kLength), vec3(q, 0)},
+              {vec2(0, -v), vec2(kLength / 4, -v), vec2(kLength / 4, -next), vec2(0, -next)});
     v = next;
   }
-  const std::uint32_t vaultMesh = addMesh(city.scene, vault.take("tunnel vault"));
-  addObject(city.scene, city.root, vaultMesh, city.materials.tunnelWall, entrance);
+  addObject(city.scene, city.root, addMesh(city.scene, walls.take("tunnel walls")),
+            city.materials.tunnelWall, entrance);
+  addObject(city.scene, city.root, addMesh(city.scene, ceiling.take("tunnel ceiling")),
+            city.materials.tunnelCeiling, entrance);
 
   hill.box({-kOuter, 0, -kLength}, {kOuter, kTop, 0}, 6, kFaceLeft | kFaceRight);
   addObject(city.scene, city.root, addMesh(city.scene, hill.take("tunnel sides")),

@@ -81,6 +81,30 @@ vec4 grassColor(vec2 p, std::uint32_t seed) {
   return vec4(glm::mix(vec3(0.20f, 0.26f, 0.15f), vec3(0.40f, 0.42f, 0.28f), n), 1);
 }
 
+// The inside of a block from above, kYard across: lawn with a lane around it, footpaths that cross
+// at a round place, car parks and shrubs.
+vec4 yardColor(vec2 p, std::uint32_t seed) {
+  const float lawn = 0.5f * fractalNoise(p, 9, 3, seed) + 0.5f * fractalNoise(p, 64, 4, seed + 1);
+  vec3 color = glm::mix(vec3(0.20f, 0.26f, 0.15f), vec3(0.40f, 0.42f, 0.28f), lawn);
+  const float shrubs = fractalNoise(p, 24, 2, seed + 2);
+  color *= 1 - 0.35f * glm::smoothstep(0.60f, 0.72f, shrubs);
+  const vec2 at = (p - 0.5f) * kYard;  // m
+  const float grain = noise(p, 256, seed + 3), sway = 9 * (noise(p, 3, seed + 4) - 0.5f);
+  const float path = std::min(std::abs(at.x + at.y + sway), std::abs(at.x - at.y - sway)) * 0.7f;
+  const float place = glm::length(at);
+  const vec3 gravel = vec3(0.50f, 0.46f, 0.39f) * (0.85f + 0.25f * grain);
+  color = glm::mix(color, gravel,
+                   1 - glm::smoothstep(1.2f, 1.7f, std::min(path, std::abs(place - 13.f))));
+  const float ring = std::max(std::abs(at.x), std::abs(at.y));  // m from the middle
+  const vec2 along(at.x * at.x > at.y * at.y ? at.y : at.x, ring);
+  const bool park = std::abs(along.x) > 24 && std::abs(along.x) < 58 && ring > 76 && ring < 82;
+  if (park || (ring > 82 && ring < 86)) {
+    color = vec3(0.22f + 0.05f * grain);
+    if (park) color = glm::mix(color, vec3(0.6f), line(glm::fract(along.x / 2.5f), 0.5f, 0.03f));
+  }
+  return vec4(color, 1);
+}
+
 vec4 concreteColor(vec2 p, std::uint32_t seed) {
   const float joint = std::max(line(p.x, 0.01f, 0.008f), line(p.y, 0.01f, 0.008f));
   return grey((0.46f + 0.16f * fractalNoise(p, 4, 4, seed)) * (1 - 0.3f * joint));
@@ -97,9 +121,11 @@ vec4 treeColor(vec2 p, std::uint32_t seed) {
   const vec2 d = (p - vec2(0.5f, 0.38f)) / vec2(0.46f, 0.36f);
   const float lumps = fractalNoise(p, 6, 4, seed);
   const bool crown = glm::dot(d, d) < 0.45f + 0.75f * lumps && lumps > 0.34f;
-  const bool trunk = std::abs(p.x - 0.5f) < 0.022f && p.y > 0.4f;
+  const float fromTrunk = p.y > 0.4f ? std::abs(p.x - 0.5f) : 1.f;
   const vec3 green = glm::mix(vec3(0.17f, 0.26f, 0.10f), vec3(0.40f, 0.47f, 0.19f), lumps);
-  return vec4(crown ? green : vec3(0.25f, 0.19f, 0.14f), crown || trunk ? 1.f : 0.f);
+  // What is cut out has the colour of what is beside it, which filtering mixes in.
+  const bool bark = !crown && fromTrunk < 0.05f;
+  return vec4(bark ? vec3(0.25f, 0.19f, 0.14f) : green, crown || fromTrunk < 0.022f ? 1.f : 0.f);
 }
 
 // A 5 x 7 letter; bit 4 of a row is its left column.
@@ -196,6 +222,7 @@ Materials addMaterials(Scene& scene) {
   m.concrete = add(matte("concrete", vec3(1), 0.85f));
   m.deck = add(matte("deck", vec3(1), 0.6f));
   m.tunnelWall = add(matte("tunnel wall", vec3(1), 0.35f));
+  m.tunnelCeiling = add(matte("tunnel ceiling", vec3(0.35f), 0.9f));
   m.grass = add(matte("grass", vec3(1), 0.95f));
   Material tree = matte("tree", vec3(1), 0.9f);
   tree.alphaMode = AlphaMode::Mask;
@@ -236,9 +263,10 @@ void addTextures(Scene& scene, const Materials& m, std::uint32_t seed) {
   give(m.zebra, 512, 128, [=](vec2 p) { return zebraColor(p, seed + 20); });
   give(m.crossing, 256, 256, [=](vec2 p) { return asphalt(p, seed + 20); });
   give(m.sidewalk, 256, 256, [=](vec2 p) { return sidewalkColor(p, seed + 30); });
-  give(m.yard, 256, 256, [=](vec2 p) { return grassColor(p, seed + 40); });
-  scene.materials[m.grass].albedoTexture = scene.materials[m.yard].albedoTexture;
+  give(m.yard, 1024, 1024, [=](vec2 p) { return yardColor(p, seed + 45); });
+  give(m.grass, 256, 256, [=](vec2 p) { return grassColor(p, seed + 40); });
   give(m.concrete, 256, 256, [=](vec2 p) { return concreteColor(p, seed + 50); });
+  scene.materials[m.tunnelCeiling].albedoTexture = scene.materials[m.concrete].albedoTexture;
   give(m.tunnelWall, 256, 256, [=](vec2 p) { return tunnelColor(p, seed + 60); });
   give(m.tree, 256, 256, [=](vec2 p) { return treeColor(p, seed + 70); });
   scene.materials[m.neon].emissiveTexture =
