@@ -14,6 +14,7 @@ constexpr float kFovY = 0.9f;              // rad
 constexpr float kWidestFrame = 4.f / 3.f;  // width / height that the box is fitted into
 constexpr float kMargin = 1.05f;           // of distance
 constexpr float kLowestRoom = 1.5f;        // m
+constexpr float kNarrowestRoom = 0.01f;    // of the box's diagonal, from the middle to a wall
 constexpr int kDirections = 16;            // around the horizon
 constexpr float kPi = glm::pi<float>();
 
@@ -126,12 +127,14 @@ void addFittingCamera(Scene& scene) {
   if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
 
   // A room: from its middle most sight lines end at the front of a wall; from the middle of a solid
-  // thing they end at back faces. A car has an inside too, but none to stand in.
+  // thing they end at back faces. A car has an inside too, but none to stand in; nor is a
+  // gap between the things of a wide field a room.
   vec3 eye = box.center();
   eye.y = box.min.y + 0.3f * box.extent().y;
   const Horizon horizon = lookAround(scene, eye);
-  const auto walls =
-      std::count_if(horizon.begin(), horizon.end(), [](const Sight& sight) { return sight.front; });
+  const auto walls = std::count_if(horizon.begin(), horizon.end(), [&](const Sight& sight) {
+    return sight.front && sight.distance > kNarrowestRoom * box.diagonal();
+  });
   if (walls < kDirections * 3 / 4 || box.extent().y < kLowestRoom)
     return addCameraOutside(scene, box, glm::normalize(vec3(0.5f, 0.45f, 1.f)));
 

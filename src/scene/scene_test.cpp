@@ -216,6 +216,22 @@ TEST(Complete, InARoomTheCameraStandsInside) {
   }
 }
 
+TEST(Complete, AGapBetweenThingsInAFieldIsNoRoom) {
+  Mesh field;  // 200 x 200 m, and four walls that face its middle from 0.4 m
+  for (const float half : {100.f, 0.4f})
+    for (int i = 0; i < 8; ++i)
+      field.positions.emplace_back((i & 1) ? half : -half, (i & 2) ? 2.f : 0.f,
+                                   (i & 4) ? half : -half);
+  field.indices = {0, 4, 1, 1, 4, 5};
+  for (const std::uint32_t corner :
+       {0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7, 0, 2, 4, 2, 6, 4, 1, 5, 3, 3, 5, 7})
+    field.indices.push_back(8 + corner);
+  Scene scene = sceneOf(std::move(field));
+  complete(scene);
+  const vec3 eye(scene.nodes[scene.cameras[0].node].worldFromNode[3]);
+  EXPECT_GT(eye.y, 2.f);
+}
+
 TEST(TextureStore, RefusesWhatIsTooMuchTogether) {
   const auto folder = std::filesystem::temp_directory_path() / "lucerna_texture_store";
   std::filesystem::create_directories(folder);
