@@ -25,7 +25,9 @@ int runWorker(int count, char** words) {
 // Errors go to stderr; with --json the one document on stdout says it too.
 int fail(const Error& fault, bool json) {
   // A list of faults says of each line itself whether it is an error or a warning.
-  const char* prefix = fault.message.starts_with("error: ") ? "" : "error: ";
+  const bool saysItself =
+      fault.message.starts_with("error: ") || fault.message.starts_with("warning: ");
+  const char* prefix = saysItself ? "" : "error: ";
   std::fprintf(stderr, "%s%s\n", prefix, fault.message.c_str());
   const int code = static_cast<int>(fault.kind);
   if (json) printJson({{"error", {{"code", code}, {"message", fault.message}}}});
@@ -74,7 +76,12 @@ int run(int count, char** words) {
       return fail({ErrorKind::Failed, "standard output cannot be written: is the disk full?"},
                   false);
     return result ? *result : fail(result.error(), line.talk.json);
-  } catch (const std::exception& fault) {  // out of memory, mostly: nothing here throws by design
+  } catch (const std::bad_alloc&) {
+    return fail({ErrorKind::Failed,
+                 "out of memory; render smaller (--size, --scale), take a smaller scene, or close "
+                 "other programs"},
+                line.talk.json);
+  } catch (const std::exception& fault) {  // gpu::OutOfMemory; nothing else throws by design
     return fail({ErrorKind::Failed, fault.what()}, line.talk.json);
   }
 }

@@ -47,7 +47,8 @@ void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
       ->check(between(-1e6, 1e6, "s"));
   command.add_option("--time-step", settings.timeStep, "seconds from frame to frame (1/30)")
       ->check(between(0, 1e6, "s"));
-  command.add_option("--seed", settings.seed, "seed of everything random (0)")
+  command
+      .add_option("--seed", settings.seed, "seed of everything random in passes and scripts (0)")
       ->check(wholeNumber(0, std::numeric_limits<std::uint64_t>::max()));
   command.add_option("--threads", settings.threads, "CPU threads; 0: one a core (0)")
       ->check(wholeNumber(0, 1024));

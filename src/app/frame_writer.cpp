@@ -46,6 +46,12 @@ Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
                  output.path);
   if (writer.layers_.empty() && writer.name_.kind() != OutputKind::Png)
     writer.layers_.push_back(LayerKind::Color);
+  writer.wanted_ = writer.layers_;
+  const auto has = [&](LayerKind kind) {
+    return std::find(writer.layers_.begin(), writer.layers_.end(), kind) != writer.layers_.end();
+  };
+  // Where the depth is empty there is no normal.
+  if (has(LayerKind::Normal) && !has(LayerKind::Depth)) writer.wanted_.push_back(LayerKind::Depth);
   return writer;
 }
 
@@ -67,6 +73,7 @@ Status FrameWriter::writeLayers(Session& session, const std::filesystem::path& p
     if (source.kind == LayerKind::Depth) depth = session.executor->kept(source.port);
   std::vector<ExrLayer> layers;
   for (const LayerSource& source : session.layers) {
+    if (std::find(layers_.begin(), layers_.end(), source.kind) == layers_.end()) continue;
     const gpu::Texture* texture = session.executor->kept(source.port);
     if (!texture)
       return error(ErrorKind::Pipeline, "{}: '{}' is not a texture, so it cannot be written",

@@ -15,7 +15,7 @@ class FrameWriter {
   static Result<FrameWriter> create(const OutputSettings& output, const RenderSettings& settings);
 
   // What openSession() must keep: nothing for PNG, the linear colour and further layers otherwise.
-  const std::vector<LayerKind>& layers() const { return layers_; }
+  const std::vector<LayerKind>& layers() const { return wanted_; }
 
   // A FrameSink: PNG is the pipeline's output; HDR and EXR hold linear values from before the tone
   // map.
@@ -28,7 +28,8 @@ class FrameWriter {
 
   FrameName name_;
   ComponentType exrType_ = ComponentType::Half;
-  std::vector<LayerKind> layers_;
+  std::vector<LayerKind> layers_;  // to be written
+  std::vector<LayerKind> wanted_;  // and what writing these needs
   std::vector<std::filesystem::path> written_;
 };
 

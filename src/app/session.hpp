@@ -45,7 +45,7 @@ struct Session {
 
   std::uint64_t frame = 0;  // index of the next frame
   bool rebuild = true;      // the schedule does not fit the pipeline yet
-  bool watch = false;       // reload shaders and pipeline when their files change
+  bool watch = false;       // reload shaders and pipeline when their files change; for a viewer
   int glMessages = 0;       // debug messages of severity medium or above
 
   double time() const { return settings.time + static_cast<double>(frame) * settings.timeStep; }

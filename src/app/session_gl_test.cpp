@@ -92,6 +92,27 @@ TEST_F(SessionTest, ExrHoldsTheLayersAskedFor) {
   EXPECT_GT(covered, depth.width() * depth.height() / 2);
 }
 
+TEST_F(SessionTest, NormalsAreZeroWhereNothingIsAlsoWithoutTheDepthLayer) {
+  settings_.scene = "builtin:nightcity";
+  settings_.camera = "aerial";
+  const auto zeros = [&](const std::vector<std::string>& layers) {
+    const auto read = readExrLayers(render("normals.exr", layers, ComponentType::F32));
+    EXPECT_EQ(read->size(), layers.size());
+    const auto normal =
+        std::ranges::find_if(*read, [](const ExrLayer& layer) { return layer.name == "normal"; });
+    int count = 0;
+    for (int y = 0; y < normal->image.height(); ++y)
+      for (int x = 0; x < normal->image.width(); ++x) {
+        const float* n = normal->image.pixel<float>(x, y);
+        count += vec3(n[0], n[1], n[2]) == vec3(0.f);
+      }
+    return count;
+  };
+  const int expected = zeros({"normal", "depth"});
+  EXPECT_GT(expected, 10);
+  EXPECT_EQ(zeros({"normal"}), expected);
+}
+
 TEST_F(SessionTest, ALayerThatThePipelineLacksIsAUsageError) {
   settings_.pipeline = "forward";
   auto session = openSession(settings_, {LayerKind::Albedo});

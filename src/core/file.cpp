@@ -86,16 +86,18 @@ Status writeFully(int file, std::span<const std::byte> bytes, const fs::path& pa
   return {};
 }
 
-Status writeTo(const fs::path& path, int flags, std::span<const std::byte> bytes) {
+// Messages name the file as the caller gave it.
+Status writeTo(const fs::path& path, const fs::path& asGiven, int flags,
+               std::span<const std::byte> bytes) {
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | flags, 0666));
   if (file.get() < 0)
     return error(ErrorKind::Failed,
                  "{}: cannot be written: {}; check that the folder exists and is writable",
-                 path.string(), reason(errno));
-  LUCERNA_TRY_VOID(writeFully(file.get(), bytes, path));
+                 asGiven.string(), reason(errno));
+  LUCERNA_TRY_VOID(writeFully(file.get(), bytes, asGiven));
   if (!file.close())
-    return error(ErrorKind::Failed, "{}: writing failed: {}; check the free space", path.string(),
-                 reason(errno));
+    return error(ErrorKind::Failed, "{}: writing failed: {}; check the free space",
+                 asGiven.string(), reason(errno));
   return {};
 }
 
@@ -176,9 +178,10 @@ Result<std::string> readText(const fs::path& path, std::uint64_t limit) {
 }
 
 Status writeFile(const fs::path& path, std::span<const std::byte> bytes) {
-  if (isDeviceOrPipe(path)) return writeTo(path, 0, bytes);
-  return writeAtomically(
-      path, [&](const fs::path& temporary) { return writeTo(temporary, O_CREAT | O_EXCL, bytes); });
+  if (isDeviceOrPipe(path)) return writeTo(path, path, 0, bytes);
+  return writeAtomically(path, [&](const fs::path& temporary) {
+    return writeTo(temporary, path, O_CREAT | O_EXCL, bytes);
+  });
 }
 
 Status writeText(const fs::path& path, std::string_view text) {

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <deque>
+#include <exception>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -21,14 +22,22 @@ struct Loop {
   const std::function<void(std::size_t, std::size_t)>& body;
   std::atomic<std::size_t> next{0};
   int helpers = 0;  // pool threads inside run(); guarded by the pool's mutex
+  std::mutex failureMutex{};
+  std::exception_ptr failure{};  // the first that a body threw
 
-  // Takes blocks until none is left. noexcept: an exception of the body is a bug.
+  // Takes blocks until none is left, or a body throws.
   void run() noexcept {
     insideLoop = true;
     for (;;) {
       const std::size_t begin = next.fetch_add(grain);
       if (begin >= count) break;
-      body(begin, std::min(count, begin + grain));
+      try {
+        body(begin, std::min(count, begin + grain));
+      } catch (...) {
+        next = count;
+        const std::lock_guard lock(failureMutex);
+        if (!failure) failure = std::current_exception();
+      }
     }
     insideLoop = false;
   }
@@ -127,6 +136,7 @@ void parallelFor(std::size_t count, std::size_t grain,
   }
   Loop loop{count, grain, body};
   pool()->run(loop);
+  if (loop.failure) std::rethrow_exception(loop.failure);
 }
 
 }  // namespace lucerna

@@ -31,6 +31,18 @@ TEST_P(ParallelTest, CoversEachIndexOnce) {
     }
 }
 
+TEST_P(ParallelTest, AnExceptionReachesTheCallerAndThePoolGoesOn) {
+  for (int round = 0; round < 20; ++round)
+    EXPECT_THROW(parallelFor(1000, 1,
+                             [&](std::size_t begin, std::size_t) {
+                               if (begin % 100 == 37) throw std::bad_alloc();
+                             }),
+                 std::bad_alloc);
+  std::atomic<int> visits{0};
+  parallelFor(1000, 1, [&](std::size_t, std::size_t) { ++visits; });
+  EXPECT_EQ(visits, 1000);
+}
+
 TEST_P(ParallelTest, ALoopInsideALoopRunsOnTheSameThread) {
   std::atomic<int> sum{0};
   parallelFor(8, 1, [&](std::size_t, std::size_t) {

@@ -67,6 +67,12 @@ std::uint64_t TextureDesc::bytes() const {
          static_cast<std::uint64_t>(info(format).bytes);
 }
 
+OutOfMemory::OutOfMemory(const std::string& label, const TextureDesc& desc)
+    : std::runtime_error(fmt::format(
+          "the driver has no memory for the texture '{}' of {} x {} pixels, {:.0f} MiB; render "
+          "smaller (--size, --scale) or close other programs",
+          label, desc.width, desc.height, static_cast<double>(desc.bytes()) / (1 << 20))) {}
+
 void Texture::swap(Texture& other) noexcept {
   std::swap(device_, other.device_);
   std::swap(id_, other.id_);
@@ -115,9 +121,10 @@ Texture Device::createTexture(const TextureDesc& wanted, std::string label) {
     glTextureStorage3D(texture.id_, desc.levels, format, desc.width, desc.height, desc.layers);
   else
     glTextureStorage2D(texture.id_, desc.levels, format, desc.width, desc.height);
-  impl_->setLabel(GL_TEXTURE, texture.id_, texture.label_);
   ++impl_->objects.textures;
   impl_->objects.textureBytes += desc.bytes();
+  if (glGetError() == GL_OUT_OF_MEMORY) throw OutOfMemory(texture.label_, desc);
+  impl_->setLabel(GL_TEXTURE, texture.id_, texture.label_);
   return texture;
 }
 
@@ -142,22 +149,26 @@ void Device::generateMipmaps(const Texture& texture) {
 
 void Device::clear(const Texture& texture, vec4 value) {
   const FormatInfo& format = info(texture.format());
+  const auto clearWith = [&](GLenum layout, GLenum type, const void* texel) {
+    for (int level = 0; level < texture.desc().levels; ++level)
+      glClearTexImage(texture.id(), level, layout, type, texel);
+  };
   if (format.kind == FormatClass::Uint || format.kind == FormatClass::Int) {
     const glm::ivec4 rounded = glm::round(value);
-    glClearTexImage(texture.id(), 0, GL_RGBA_INTEGER, GL_INT, &rounded);
+    clearWith(GL_RGBA_INTEGER, GL_INT, &rounded);
   } else if (format.format == Format::Depth32FStencil8) {
     const struct {
       float depth;
       std::uint32_t stencil;
     } both{value.x, 0};
-    glClearTexImage(texture.id(), 0, GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &both);
+    clearWith(GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &both);
   } else if (format.kind == FormatClass::Depth) {
-    glClearTexImage(texture.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, &value.x);
+    clearWith(GL_DEPTH_COMPONENT, GL_FLOAT, &value.x);
   } else {
     // Unlike the clear of a render target, glClearTexImage stores sRGB values as they come.
     if (format.format == Format::Srgb8Alpha8)
       for (int i = 0; i < 3; ++i) value[i] = srgbFromLinear(value[i]);
-    glClearTexImage(texture.id(), 0, GL_RGBA, GL_FLOAT, &value);
+    clearWith(GL_RGBA, GL_FLOAT, &value);
   }
 }
 
@@ -177,8 +188,10 @@ void Device::copy(const Texture& from, const Texture& to) {
   CHECK(from.desc() == to.desc(), "textures '{}' and '{}' differ in size or format", from.label(),
         to.label());
   const GLenum kind = target(from.desc().kind);
-  glCopyImageSubData(from.id(), kind, 0, 0, 0, 0, to.id(), kind, 0, 0, 0, 0, from.width(),
-                     from.height(), from.desc().layers);
+  for (int level = 0; level < from.desc().levels; ++level)
+    glCopyImageSubData(from.id(), kind, level, 0, 0, 0, to.id(), kind, level, 0, 0, 0,
+                       std::max(from.width() >> level, 1), std::max(from.height() >> level, 1),
+                       from.desc().layers);
 }
 
 GLuint Device::Impl::sampler(const Sampler& value) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "core/math/math.hpp"
@@ -22,6 +23,14 @@ struct TextureDesc {
   int samples = 1;
   bool operator==(const TextureDesc&) const = default;
   std::uint64_t bytes() const;  // of all levels, layers and samples, counted by us
+};
+
+// What createTexture() throws where the driver has no memory left: unlike other errors it can
+// happen at any texture, and nobody below main() can do anything about it. what() is a whole
+// sentence.
+class OutOfMemory : public std::runtime_error {
+ public:
+  OutOfMemory(const std::string& label, const TextureDesc& desc);
 };
 
 class Texture {

@@ -181,6 +181,29 @@ TEST_F(TextureGlTest, CopyAndFlip) {
   EXPECT_THAT(device().download(to).as<std::uint8_t>(), testing::ElementsAre(2, 1));
 }
 
+TEST_F(TextureGlTest, ClearAndCopyReachAllLevels) {
+  const TextureDesc desc{.format = Format::R32Float, .width = 4, .height = 4, .levels = 0};
+  const Texture from = device().createTexture(desc, "from"),
+                to = device().createTexture(desc, "to");
+  device().clear(from, vec4(0.25f));
+  device().clear(to, vec4(0.75f));
+  device().copy(from, to);
+  static constexpr EmbeddedShader kShader{
+      "test/levels.frag",
+      "uniform sampler2D source;\nlayout(location = 0) out vec4 color;\n"
+      "void main() { color = vec4(texelFetch(source, ivec2(0), 0).r,\n"
+      "  texelFetch(source, ivec2(0), 1).r, texelFetch(source, ivec2(0), 2).r, 1.0); }\n"};
+  const ProgramPtr program = fragment(kShader);
+  const Texture result = target(Format::Rgba32Float, 1, 1);
+  {
+    Rendering draw = device().render({.colors = {{&result, Load::Discard}}});
+    draw.use(*program, {});
+    draw.texture("source", to, {.filter = Filter::Trilinear});
+    draw.fullscreen();
+  }
+  EXPECT_EQ(firstPixel(result), vec4(0.25f, 0.25f, 0.25f, 1.f));
+}
+
 TEST_F(TextureGlTest, MovesKeepCountsExact) {
   Texture a = target(Format::R8Unorm);
   const ObjectCounts one = device().objectCounts();

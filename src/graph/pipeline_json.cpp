@@ -40,7 +40,7 @@ Outline outlineOf(const std::string& text) {
       while (i < text.size() && text[i] != '"') i += text[i] == '\\' ? 2 : 1;
       if (depth == 1) rootKey = text.substr(begin, std::min(i, text.size()) - begin);
     } else if (c == '[' || c == '{') {
-      if (++depth == kMaxPipelineDepth + 1) outline.deepest = i;
+      if (++depth > kMaxPipelineDepth && outline.deepest == 0) outline.deepest = i;
       outline.depth = std::max(outline.depth, depth);
       if (depth == 3 && c == '{' && rootKey == "passes") outline.rowLines.push_back(line);
     } else if (c == ']' || c == '}') {

@@ -79,10 +79,14 @@ class Checker {
 
   // What a pass's author must get right.
   void checkDeclaration(const PassDescription& description) {
-    for (const PortDescription& port : description.ports)
+    for (const PortDescription& port : description.ports) {
       if (port.direction == Direction::Out && port.type.texture)
         CHECK(port.type.texture->formats.size() == 1, "{}: output '{}' must name its one format",
               description.type, port.name);
+      CHECK(port.direction != Direction::InOut || !port.optional,
+            "{}: '{}' cannot be optional: an update needs what it updates", description.type,
+            port.name);
+    }
   }
 
   void checkReads(const PassDescription& description) {

@@ -160,7 +160,7 @@ class Validator {
           report(row.row, inputPlace(row.row, input.port),
                  {.kind = FaultKind::Cycle,
                   .found = fmt::format("wiring that leads back: {} reads {}", reader,
-                                       join(path, ", which reads ")),
+                                       join(shortened(path), ", which reads ")),
                   .wanted = "passes that read only what earlier ones made",
                   .remedy = fmt::format("change one of these `reads`; only a history input may "
                                         "name its own or a later row")});
@@ -172,6 +172,16 @@ class Validator {
                   .wanted = "a pass that runs before this one",
                   .remedy = fmt::format("move '{}' before '{}'", maker, reader)});
       }
+  }
+
+  // The ends of a long way are enough.
+  static std::vector<std::string> shortened(std::vector<std::string> path) {
+    constexpr std::ptrdiff_t kStart = 4, kEnd = 2;
+    const auto size = static_cast<std::ptrdiff_t>(path.size());
+    if (size <= kStart + kEnd + 1) return path;
+    path[kStart] = fmt::format("... ({} more)", size - kStart - kEnd);
+    path.erase(path.begin() + kStart + 1, path.end() - kEnd);
+    return path;
   }
 
   // An input that needs its source earlier in the same frame.

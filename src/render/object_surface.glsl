@@ -37,10 +37,15 @@ vec3 shadingNormalW() {
                      ? texture(normalTexture, texCoordOf(material.normalUse)).xyz * 2.0 - 1.0
                      : vec3(0.0, 0.0, 1.0);
   if (material.normalUse.offset.w > 0.5 && dot(tangentW.xyz, tangentW.xyz) > 0.0) {
-    vec3 t = normalize(tangentW.xyz - n * dot(n, tangentW.xyz));
-    vec3 b = cross(n, t) * tangentW.w;
-    normalT.xy *= material.emissive.w;
-    n = normalize(t * normalT.x + b * normalT.y + n * normalT.z);
+    vec3 t = tangentW.xyz - n * dot(n, tangentW.xyz);
+    float square = dot(t, t);
+    // A tangent along the normal gives the map no direction: the surface stays as it is.
+    if (square > 1e-8 * dot(tangentW.xyz, tangentW.xyz)) {
+      t *= inversesqrt(square);
+      vec3 b = cross(n, t) * tangentW.w;
+      normalT.xy *= material.emissive.w;
+      n = normalize(t * normalT.x + b * normalT.y + n * normalT.z);
+    }
   }
   return gl_FrontFacing ? n : -n;
 }

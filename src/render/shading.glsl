@@ -11,7 +11,8 @@ const float kLowestRoughness = 0.045;
 //   Phong  (rd (n.l) + rs (v.r)^h) / pi    for n.l > 0; the division turns E into system A's IL
 vec3 reflectedPhong(Surface s, vec3 toLightW, float cosLight) {
   vec3 reflectedW = 2.0 * cosLight * s.normalW - toLightW;
-  float highlight = pow(max(dot(s.toEyeW, reflectedW), 1e-6), s.shininess);
+  float cosReflected = dot(s.toEyeW, reflectedW);
+  float highlight = cosReflected > 0.0 ? pow(cosReflected, s.shininess) : 0.0;
   return (s.albedo * cosLight + s.specular * highlight) / kPi;
 }
 

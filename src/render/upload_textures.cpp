@@ -39,18 +39,8 @@ gpu::Format formatFor(const Image& image, bool color) {
   return color ? gpu::Format::Srgb8Alpha8 : gpu::Format::Rgba8Unorm;
 }
 
-Image pixelsFor(const Image& image, bool color) {
-  const ComponentType type = isFloat(image) ? ComponentType::F32 : ComponentType::U8;
-  if (image.type() == type && image.channels() == 4) return image;
-  Image pixels = converted(image, type, 4);
-  // Two channels are grey and alpha in a colour picture.
-  if (color && image.channels() == 2 && type == ComponentType::U8)
-    for (std::size_t i = 0; i + 3 < pixels.bytes().size(); i += 4) {
-      const auto texel = pixels.bytes().subspan(i, 4);
-      texel[3] = texel[1];
-      texel[1] = texel[2] = texel[0];
-    }
-  return pixels;
+Image pixelsFor(const Image& image) {
+  return converted(image, isFloat(image) ? ComponentType::F32 : ComponentType::U8, 4);
 }
 
 gpu::Texture textureOf(gpu::Device& device, const scene::Texture& texture, bool color) {
@@ -60,7 +50,7 @@ gpu::Texture textureOf(gpu::Device& device, const scene::Texture& texture, bool 
                                               .height = image.height(),
                                               .levels = 0},
                                              texture.name);
-  device.upload(result, pixelsFor(image, color));
+  device.upload(result, pixelsFor(image));
   device.generateMipmaps(result);
   return result;
 }
@@ -118,7 +108,7 @@ gpu::Texture backgroundCube(gpu::Device& device, const scene::Scene& scene) {
                                            "background");
   for (int layer = 0; layer < 6; ++layer) {
     const std::uint32_t face = scene.background.faces[kFaceOfLayer[layer]];
-    device.upload(cube, pixelsFor(*scene.textures[face].image, true), layer);
+    device.upload(cube, pixelsFor(*scene.textures[face].image), layer);
   }
   device.generateMipmaps(cube);
   return cube;

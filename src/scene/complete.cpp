@@ -28,6 +28,19 @@ void addDefaultMaterial(Scene& scene) {
   }
 }
 
+// A surface sends back no more than it gets; the G-buffer could not hold more either.
+void limitReflectance(Scene& scene) {
+  for (Material& material : scene.materials) {
+    const vec3 albedo = glm::min(vec3(material.albedo), vec3(1.f));
+    const vec3 specular = glm::min(material.specular, vec3(1.f));
+    if (albedo == vec3(material.albedo) && specular == material.specular) continue;
+    material.albedo = vec4(albedo, material.albedo.w);
+    material.specular = specular;
+    scene.warnings.push_back("material '" + material.name +
+                             "' reflects more than it gets (a colour above 1); 1 is taken");
+  }
+}
+
 void addBounds(Mesh& mesh) {
   mesh.bounds = {};
   for (const std::uint32_t index : mesh.indices) mesh.bounds.grow(mesh.positions[index]);
@@ -57,6 +70,7 @@ void addHeadlight(Scene& scene) {
 
 void complete(Scene& scene) {
   addDefaultMaterial(scene);
+  limitReflectance(scene);
   for (Mesh& mesh : scene.meshes) {
     if (mesh.normals.empty()) makeNormals(mesh);
     if (mesh.bounds.empty()) addBounds(mesh);

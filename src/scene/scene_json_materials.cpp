@@ -13,16 +13,16 @@ void readMaterial(const JsonValue& from, Material& material) {
   if (from.readChoice("model", {"phong", "metallic-roughness"}, choice))
     material.model = static_cast<MaterialModel>(choice);
   vec3 albedo(material.albedo);
-  if (from.read("albedo", albedo, kNotNegative)) material.albedo = vec4(albedo, material.albedo.w);
-  if (from.read("opacity", material.albedo.w, kUnitRange) && !from.has("alphaMode"))
-    material.alphaMode = material.albedo.w < 1.f ? AlphaMode::Blend : AlphaMode::Opaque;
+  if (from.read("albedo", albedo, kUnitRange)) material.albedo = vec4(albedo, material.albedo.w);
+  if (from.read("opacity", material.albedo.w, kUnitRange) && material.albedo.w < 1.f)
+    material.alphaMode = AlphaMode::Blend;
   if (from.readChoice("alphaMode", {"opaque", "mask", "blend"}, choice))
     material.alphaMode = static_cast<AlphaMode>(choice);
   from.read("alphaCutoff", material.alphaCutoff, kUnitRange);
   from.read("transmission", material.transmission, kUnitRange);
   from.read("emissive", material.emissive, kNotNegative);
   from.read("doubleSided", material.doubleSided);
-  from.read("specular", material.specular, kNotNegative);
+  from.read("specular", material.specular, kUnitRange);
   from.read("shininess", material.shininess, {0.f, 255.f});
   from.read("metallic", material.metallic, kUnitRange);
   from.read("roughness", material.roughness, kUnitRange);

@@ -45,6 +45,25 @@ class SceneJson : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(SceneJson, OpacityOfOneLeavesTheAlphaModeAlone) {
+  write("tri.mtl", "newmtl paint\nKd 0.5 0.5 0.5\nd 0.5\n");
+  write("tri.lucerna.json", R"({"lucerna": "scene/1", "materials": {"paint": {"opacity": 1}}})");
+  const Result<Scene> scene = loadScene(path("tri.obj"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->materials[0].alphaMode, AlphaMode::Blend);
+}
+
+TEST_F(SceneJson, NothingReflectsMoreThanItGets) {
+  EXPECT_THAT(faultsOf(R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+                           "materials": {"paint": {"albedo": [3, 0, 0]}}})"),
+              HasSubstr("/materials/paint/albedo"));
+  write("tri.mtl", "newmtl paint\nKd 3 0.5 0.5\n");
+  const Result<Scene> scene = loadScene(path("tri.obj"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(vec3(scene->materials[0].albedo), vec3(1.f, 0.5f, 0.5f));
+  EXPECT_THAT(scene->warnings, testing::Contains(HasSubstr("reflects more than it gets")));
+}
+
 TEST_F(SceneJson, BesideAFileIsReadWithIt) {
   write("tri.lucerna.json", R"({"lucerna": "scene/1",
     "materials": {"paint": {"model": "metallic-roughness", "metallic": 1, "albedo": [1, 0, 0]}},

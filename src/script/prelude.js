@@ -1,6 +1,6 @@
 // The globals of a pipeline script, run before it in the same context: pipeline(), pass(), param(),
 // print(). The host hands in `host` = {file, seed, overrides, print}; the last expression is the
-// function that gives the result as JSON. docs/user/scripting.md describes what scripts see.
+// function that gives the result as JSON. docs/user/pipelines.md describes what scripts see.
 (function (host) {
   "use strict";
   const rows = [], places = [], params = [];
@@ -128,6 +128,11 @@
                           "a boolean or a string is wanted");
     if (typeof defaultValue === "number") checkNumber(`the default of param("${name}")`, defaultValue);
     const {min = -Infinity, max = Infinity} = checkedObject("the third argument of param()", options);
+    if (params.includes(name))
+      throw new Error(`param("${name}") is called twice; keep its value in a variable`);
+    if (typeof defaultValue === "number" && (defaultValue < min || defaultValue > max))
+      throw new RangeError(`the default of param("${name}") is ${defaultValue}; it must lie from ` +
+                           `${min} to ${max}`);
     params.push(name);
     if (!overrides.has(name)) return defaultValue;
     const value = fromText(name, overrides.get(name), defaultValue);

@@ -19,6 +19,17 @@ constexpr std::uint64_t kMaxSourceBytes = 4ull << 20;
 constexpr ChildLimits kLimits{
     .time = std::chrono::seconds(5), .residentBytes = 512ull << 20, .outputBytes = 16ull << 20};
 
+std::string remedyFor(ChildOutput::End end) {
+  using End = ChildOutput::End;
+  if (end == End::TimedOut || end == End::OutOfMemory || end == End::TooMuchOutput)
+    return fmt::format(
+        "a script may take {} s, {} MiB of memory and {} MiB of output: look for a loop that does "
+        "not end",
+        kLimits.time.count() / 1000, kLimits.residentBytes >> 20, kLimits.outputBytes >> 20);
+  return "the script engine needs about 1 GiB of address space; is there a limit (ulimit -v), or "
+         "too little memory?";
+}
+
 // Params that were given but that the script never asked for.
 Status checkAllUsed(const ScriptInput& input, const std::vector<std::string>& declared,
                     const std::string& name) {
@@ -70,12 +81,8 @@ Result<graph::Pipeline> runPipelineSource(const std::string& source, const std::
   if (child.end == ChildOutput::End::Cancelled)
     return error(ErrorKind::Cancelled, "{}: cancelled", name);
   if (child.end != ChildOutput::End::Exited || child.status != 0)
-    return error(
-        ErrorKind::Pipeline,
-        "{}: the script {}; a script may take {} s, {} MiB of memory and {} MiB of output: "
-        "look for a loop that does not end",
-        name, describeEnd(child, kLimits), kLimits.time.count() / 1000, kLimits.residentBytes >> 20,
-        kLimits.outputBytes >> 20);
+    return error(ErrorKind::Pipeline, "{}: the script {}; {}", name, describeEnd(child, kLimits),
+                 remedyFor(child.end));
   const Json answer = Json::parse(
       reinterpret_cast<const char*>(child.out.data()),
       reinterpret_cast<const char*>(child.out.data() + child.out.size()), nullptr, false);

@@ -86,6 +86,12 @@ TEST(Script, ParametersCanBeOverridden) {
   EXPECT_THAT(unknown.error().message, HasSubstr("did you mean 'count'"));
 }
 
+TEST(Script, ParametersThatContradictThemselvesAreRefused) {
+  EXPECT_THAT(failureOf("\nparam('a', 5, {min: 1, max: 3})"),
+              StartsWith("test.js:2: RangeError: the default of param(\"a\") is 5"));
+  EXPECT_THAT(failureOf("param('a', 1);\nparam('a', 2)"), HasSubstr("is called twice"));
+}
+
 TEST(Script, TheSameSeedGivesTheSamePipelineAndThereIsNoClock) {
   const std::string source = "pass('Cull', {a: Math.random(), b: Math.random()});";
   const auto json = [&](std::uint64_t seed) {

@@ -1,6 +1,8 @@
 #include "passes/cull/cull.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
@@ -38,7 +40,10 @@ void sortBackToFront(const render::GpuScene& gpuScene, const scene::View& view,
   keyed.reserve(objects.size());
   for (const std::uint32_t index : objects) {
     const vec3 center = gpuScene.scene->objects[index].boundsW.center();
-    keyed.emplace_back(glm::dot(depthRow, vec4(center, 1.f)), index);
+    const float depth = glm::dot(depthRow, vec4(center, 1.f));
+    // A box without bounds has no centre: it counts as farthest, for a NaN cannot be sorted.
+    keyed.emplace_back(std::isfinite(depth) ? depth : -std::numeric_limits<float>::infinity(),
+                       index);
   }
   std::ranges::sort(keyed);
   std::ranges::transform(keyed, objects.begin(), [](const auto& pair) { return pair.second; });

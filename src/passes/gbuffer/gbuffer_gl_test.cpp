@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <set>
 
 #include "support/testing.hpp"
@@ -129,6 +131,39 @@ TEST(GBuffer, NormalsFaceTheEyeEverywhere) {
   EXPECT_NEAR(pixel[0], 128, 1);
   EXPECT_NEAR(pixel[1], 128, 1);
   EXPECT_EQ(pixel[2], 255);
+}
+
+// A picture of one grey and one alpha channel, as PNG has it.
+TEST(GBuffer, GreyAndAlphaTexturesKeepBoth) {
+  for (const auto& [grey, alpha] : {std::pair{40, 255}, std::pair{250, 10}}) {
+    scene::Scene scene = testing::emptyScene();
+    Image image(1, 1, 2, ComponentType::U8);
+    image.as<std::uint8_t>()[0] = static_cast<std::uint8_t>(grey);
+    image.as<std::uint8_t>()[1] = static_cast<std::uint8_t>(alpha);
+    scene.textures.push_back({.name = "grey", .image = std::make_shared<Image>(image)});
+    scene::Material& wall = testing::addWall(scene, 3.f);
+    wall.alphaMode = scene::AlphaMode::Mask;
+    wall.albedoTexture.texture = 0;
+    const Image albedo = testing::valueOf(scene, testing::rows(kRows), {8, 8}, "GBuffer.albedo");
+    const std::uint8_t* texel = albedo.pixel<std::uint8_t>(4, 4);
+    const int expected = alpha == 255 ? grey : 0;  // below the cutoff nothing is drawn
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(texel[c], expected, 1) << grey << ' ' << alpha;
+  }
+}
+
+// A tangent along the normal cannot turn a normal map: it must not make the normal NaN either.
+TEST(GBuffer, ATangentAlongTheNormalLeavesTheNormalAlone) {
+  scene::Scene scene = testing::emptyScene();
+  scene::Mesh& cube = scene.meshes[0];
+  for (std::size_t i = 0; i < cube.normals.size(); ++i) cube.tangents[i] = vec4(cube.normals[i], 1);
+  Image image(1, 1, 3, ComponentType::U8);
+  std::ranges::copy(std::array<std::uint8_t, 3>{200, 128, 200}, image.as<std::uint8_t>().begin());
+  scene.textures.push_back({.name = "bumps", .image = std::make_shared<Image>(image)});
+  testing::addWall(scene, 3.f).normalTexture.texture = 0;
+  const Image normals = testing::valueOf(scene, testing::rows(kRows), {8, 8}, "GBuffer.normal");
+  // Straight at the eye is the middle of the octahedral square.
+  for (int c = 0; c < 2; ++c)
+    EXPECT_NEAR(normals.pixel<std::uint16_t>(4, 4)[c], 32768, 32) << "component " << c;
 }
 
 TEST(GBuffer, AlphaTestCutsHoles) {
