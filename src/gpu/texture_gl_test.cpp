@@ -210,7 +210,7 @@ TEST_F(TextureGlTest, MovesKeepCountsExact) {
   EXPECT_EQ(one.textures, 1);
   EXPECT_EQ(one.textureBytes, 16u);
   Texture b = std::move(a);
-  EXPECT_FALSE(a);
+  EXPECT_FALSE(a);  // NOLINT(bugprone-use-after-move): that it is empty is what is tested
   EXPECT_EQ(device().objectCounts(), one);
   a = target(Format::R8Unorm);
   a = std::move(b);  // the second one dies

@@ -246,7 +246,7 @@ class ExecutorGlTest : public gpu::GlTest {
     GlTest::TearDown();
   }
 
-  void set(std::vector<FakeRow> rows, std::vector<std::string> kept = {}) {
+  void set(std::vector<FakeRow> rows, const std::vector<std::string>& kept = {}) {
     const std::string output = rows.back().row.name + ".a";
     const Status status = executor_->setPipeline(pipelineOf(std::move(rows), output), {8, 4}, kept);
     ASSERT_TRUE(status) << status.error().message;
@@ -254,7 +254,7 @@ class ExecutorGlTest : public gpu::GlTest {
 
   // The output of each view.
   std::vector<float> frame(bool cut = false, bool sceneChanged = false,
-                           std::vector<float> numbers = {0}) {
+                           const std::vector<float>& numbers = {0}) {
     std::vector<Number> data;
     for (const float number : numbers) data.push_back({number});
     std::vector<Imports> views(data.size());

@@ -25,7 +25,7 @@ class Schedules : public testing::Test {
     add(registry_, FakePass("UseMask").in("mask").inout("color"));
   }
 
-  Schedule of(std::vector<FakeRow> rows, std::vector<std::string> kept = {},
+  Schedule of(std::vector<FakeRow> rows, const std::vector<std::string>& kept = {},
               uvec2 size = {640, 360}) {
     const Pipeline pipeline = pipelineOf(std::move(rows));
     const Validation result = validate(pipeline, registry_, gpu::Capabilities::baseline(), kept);

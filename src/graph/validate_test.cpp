@@ -54,7 +54,7 @@ class Validate : public testing::Test {
   }
 
   Validation check(std::vector<FakeRow> rows, std::string output = "",
-                   std::vector<std::string> kept = {}) {
+                   const std::vector<std::string>& kept = {}) {
     return validate(pipelineOf(std::move(rows), std::move(output)), registry_, capabilities_, kept);
   }
 

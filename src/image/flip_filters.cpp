@@ -70,8 +70,8 @@ FeatureFilters featureFilters(float pixelsPerDegree) {
   const int radius = static_cast<int>(std::ceil(3 * sigma));
   const Kernel bell = gaussian(static_cast<float>(sigma), radius);
   Kernel edge = bell, point = bell;
-  for (int x = -radius; x <= radius; ++x) {
-    const auto at = static_cast<std::size_t>(x + radius);
+  for (std::size_t at = 0; at < bell.taps.size(); ++at) {
+    const int x = static_cast<int>(at) - radius;
     edge.taps[at] *= static_cast<float>(-x);
     point.taps[at] *= static_cast<float>(static_cast<double>(x) * x / (sigma * sigma) - 1);
   }

@@ -253,9 +253,9 @@ TEST_F(ImageFileTest, RandomDamageNeverDoesHarm) {
 TEST_F(ImageFileTest, DeclaredSizesAreCheckedBeforeAllocation) {
   Bytes png = written("a.png", randomImage(24, 10, 3, ComponentType::U8));
   const auto declare = [&](std::uint32_t width, std::uint32_t height) {
-    for (int i = 0; i < 4; ++i) {
-      png[static_cast<std::size_t>(16 + i)] = static_cast<std::byte>(width >> (24 - 8 * i));
-      png[static_cast<std::size_t>(20 + i)] = static_cast<std::byte>(height >> (24 - 8 * i));
+    for (std::size_t i = 0; i < 4; ++i) {
+      png[16 + i] = static_cast<std::byte>(width >> (24 - 8 * i));
+      png[20 + i] = static_cast<std::byte>(height >> (24 - 8 * i));
     }
     return decodeImage(png, "a.png").error().message;
   };

@@ -19,7 +19,9 @@ struct Expected {
   std::size_t materials;  // that the file names
 };
 
-void PrintTo(const Expected& expected, std::ostream* out) {
+// GoogleTest looks for this name.
+void PrintTo(  // NOLINT(readability-identifier-naming)
+    const Expected& expected, std::ostream* out) {
   *out << expected.file;
 }
 
