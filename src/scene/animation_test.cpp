@@ -6,8 +6,6 @@
 namespace lucerna::scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 Scene animated(AnimationPath path, Interpolation interpolation, std::vector<float> times,
                std::vector<vec4> values) {
   Scene scene;

@@ -59,7 +59,7 @@ void addHeadlight(Scene& scene) {
   Light light;
   light.name = "headlight";
   light.kind = LightKind::Directional;
-  light.intensity = kHeadlightBrightness * glm::pi<float>();
+  light.intensity = kHeadlightBrightness * kPi;
   light.node = scene.cameras.front().node;
   scene.headlight = static_cast<std::uint32_t>(scene.lights.size());
   scene.lights.push_back(light);

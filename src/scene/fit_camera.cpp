@@ -16,7 +16,6 @@ constexpr float kMargin = 1.05f;           // of distance
 constexpr float kLowestRoom = 1.5f;        // m
 constexpr float kNarrowestRoom = 0.01f;    // of the box's diagonal, from the middle to a wall
 constexpr int kDirections = 16;            // around the horizon
-constexpr float kPi = glm::pi<float>();
 
 struct Sight {
   float distance = std::numeric_limits<float>::infinity();  // m to the first surface

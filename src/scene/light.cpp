@@ -56,7 +56,7 @@ PlacedLight place(const Light& light, const mat4& worldFromLight) {
   const float length = glm::length(forward);
   if (length > 0.f) placed.directionW = forward / length;
   placed.intensity = light.color * light.intensity;
-  placed.ambient = placed.intensity * (light.ambientIntensity / glm::pi<float>());
+  placed.ambient = placed.intensity * (light.ambientIntensity / kPi);
   placed.attenuation = light.attenuation;
   placed.reach = reach(light);
   placed.radius = light.radius;

@@ -7,8 +7,6 @@
 namespace lucerna::scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 Light pointLight() {
   Light light;
   light.intensity = kPi;

@@ -11,7 +11,7 @@ constexpr Limits kHalfAngle{0.f, 180.f};
 constexpr Limits kMetres{0.f, 1e30f, "m"};
 
 // A light whose colour is relative, as in VRML: intensity 1 gives a white surface brightness 1.
-constexpr float kRelativeUnit = glm::pi<float>();
+constexpr float kRelativeUnit = kPi;
 
 // The keys that lights and lightSettings share.
 void readStrength(const JsonValue& from, Light& light) {

@@ -74,7 +74,7 @@ TEST_F(SceneJson, BesideAFileIsReadWithIt) {
   EXPECT_EQ(scene->materials[0].model, MaterialModel::MetallicRoughness);
   EXPECT_EQ(vec3(scene->materials[0].albedo), vec3(1, 0, 0));
   ASSERT_EQ(scene->lights.size(), 1u);
-  EXPECT_FLOAT_EQ(scene->lights[0].intensity, 2.f * glm::pi<float>());
+  EXPECT_FLOAT_EQ(scene->lights[0].intensity, 2.f * kPi);
   EXPECT_EQ(placeLights(*scene)[0].positionW, vec3(1, 2, 3));
   EXPECT_EQ(scene->exposure, -1.5f);
 }
@@ -108,7 +108,7 @@ TEST_F(SceneJson, AnglesAreDegreesAndTheFirstCameraIsTheJsons) {
     "cameras": [{"name": "c", "position": [0, 0, 5], "target": [0, 0, 0], "fovY": 90}]})");
   const Result<Scene> scene = loadScene(path("s.json"));
   ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_NEAR(scene->lights[0].outerCone, glm::pi<float>() / 3.f, 1e-6f);
+  EXPECT_NEAR(scene->lights[0].outerCone, kPi / 3.f, 1e-6f);
   EXPECT_LT(glm::length(placeLights(*scene)[0].directionW - vec3(0, -1, 0)), 1e-5f);
   EXPECT_EQ(scene->cameras[0].name, "c");
   EXPECT_NEAR(scene->cameras[0].fovY, glm::half_pi<float>(), 1e-6f);

@@ -11,8 +11,6 @@
 namespace lucerna::scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 ::testing::AssertionResult near(vec3 a, vec3 b, float tolerance = 1e-5f) {
   if (glm::length(a - b) <= tolerance) return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure()

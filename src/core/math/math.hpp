@@ -24,4 +24,6 @@ using glm::vec3;
 using glm::vec4;
 using u8vec4 = glm::vec<4, std::uint8_t>;
 
+inline constexpr float kPi = glm::pi<float>();
+
 }  // namespace lucerna

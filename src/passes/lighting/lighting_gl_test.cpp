@@ -8,7 +8,6 @@
 namespace lucerna {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr uvec2 kSize{33, 33};  // odd: the middle pixel looks along the axis
 
 scene::Light lightOf(scene::LightKind kind, float intensity) {

@@ -11,7 +11,6 @@ namespace lucerna::scene::builtin {
 namespace {
 
 using namespace atrium;
-constexpr float kPi = glm::pi<float>();
 
 // Everything that the steps below share. side is -1 (left, -x) or +1; rows along z face the nave.
 struct Plan {

@@ -6,8 +6,6 @@
 namespace lucerna::scene::builtin {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 float smooth(float low, float high, float x) {
   return glm::smoothstep(low, high, x);
 }

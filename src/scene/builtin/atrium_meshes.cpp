@@ -8,7 +8,6 @@ namespace lucerna::scene::builtin {
 namespace {
 
 using namespace atrium;
-constexpr float kPi = glm::pi<float>();
 
 // Plinth, base, capital and abacus of a column of 5 m; the shaft is a mesh of its own.
 Mesh columnStone() {

@@ -7,8 +7,6 @@
 namespace lucerna::scene::builtin {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 vec3 flatNormal(vec3 a, vec3 b, vec3 c) {
   const vec3 n = glm::cross(b - a, c - a);
   const float length = glm::length(n);

@@ -25,7 +25,7 @@ void addSun(Scene& scene, vec2 degrees) {
   sun.kind = LightKind::Directional;
   sun.color = glm::mix(vec3(1, 0.6f, 0.3f), vec3(1, 0.95f, 0.86f), std::sin(elevation));
   // At this exposure a white surface facing it is just below white.
-  sun.intensity = glm::pi<float>() * 1.1f * std::exp2(-kExposure);
+  sun.intensity = kPi * 1.1f * std::exp2(-kExposure);
   sun.angle = 0.0093f;
   sun.node = addNode(scene, std::move(node));
   scene.lights.push_back(std::move(sun));

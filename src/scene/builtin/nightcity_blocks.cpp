@@ -12,7 +12,6 @@
 namespace lucerna::scene::builtin::city {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr float kFront = kBlockHalf - kSidewalk;  // the building line
 constexpr float kShopHeight = 4.2f, kShopWidth = 5.f;
 constexpr int kShopsPerTile = 8;

@@ -8,7 +8,6 @@
 namespace lucerna::scene::builtin::city {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr float kPoleHeight = 8.5f, kArm = 2.6f;
 constexpr float kSetBack = 0.7f;  // from the kerb
 

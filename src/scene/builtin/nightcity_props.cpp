@@ -7,8 +7,6 @@
 namespace lucerna::scene::builtin::city {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 // The side view of a car that drives towards +z: (z, y), clockwise seen from its left (+x).
 constexpr std::array<vec2, 10> kOutline{
     vec2(-2.1f, 0.3f), vec2(-2.15f, 0.85f), vec2(-1.95f, 1.0f), vec2(-1.35f, 1.42f),

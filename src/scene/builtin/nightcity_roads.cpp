@@ -7,7 +7,6 @@
 namespace lucerna::scene::builtin::city {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
 constexpr float kHalf = kRoad / 2;
 constexpr float kMarkingTile = 12.f;  // m of road in one marking texture
 constexpr float kZebra = 4.f;         // depth of a pedestrian crossing

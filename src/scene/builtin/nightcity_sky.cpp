@@ -55,7 +55,7 @@ vec3 nightSky(vec3 d) {
                         glm::smoothstep(0.f, 0.55f, height));
   color = glm::mix(color, vec3(0.05f, 0.07f, 0.15f), glm::smoothstep(0.45f, 1.f, height));
   // A haze bank that is nowhere quite even.
-  const vec2 around(0.5f + std::atan2(d.x, d.z) / (2 * glm::pi<float>()), d.y);
+  const vec2 around(0.5f + std::atan2(d.x, d.z) / (2 * kPi), d.y);
   return color * (0.86f + 0.28f * fractalNoise(glm::clamp(around, 0.f, 0.999f), 8, 3, 3));
 }
 

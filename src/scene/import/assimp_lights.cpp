@@ -9,8 +9,6 @@
 namespace lucerna::scene {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 vec3 toVec3(const aiVector3D& v) {
   return {v.x, v.y, v.z};
 }
