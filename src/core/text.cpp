@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include <fmt/format.h>
+
 namespace lucerna {
 namespace {
 
@@ -40,11 +42,14 @@ std::string closest(std::string_view word, std::span<const std::string> candidat
   const int allowed = std::clamp(static_cast<int>(word.size()) / 3, 1, 3);
   int best = std::min(allowed, static_cast<int>(word.size()) - 1) + 1;
   std::string result;
-  for (const std::string& candidate : candidates)
+  for (const std::string& candidate : candidates) {
+    const auto lengths = std::minmax({word.size(), candidate.size()});
+    if (lengths.second - lengths.first >= static_cast<std::size_t>(best)) continue;
     if (const int distance = editDistance(word, candidate); distance < best) {
       best = distance;
       result = candidate;
     }
+  }
   if (!result.empty() || word.size() < 3) return result;
   const auto longer = std::find_if(candidates.begin(), candidates.end(), [&](const auto& name) {
     return startsWithIgnoringCase(name, word);
@@ -74,6 +79,14 @@ std::vector<std::string> split(std::string_view text, char separator) {
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
+}
+
+std::string bytesText(std::uint64_t bytes) {
+  static constexpr const char* kUnits[] = {"B", "KiB", "MiB", "GiB"};
+  auto value = static_cast<double>(bytes);
+  std::size_t unit = 0;
+  for (; value >= 1024 && unit + 1 < std::size(kUnits); ++unit) value /= 1024;
+  return fmt::format("{:.4g} {}", value, kUnits[unit]);
 }
 
 bool equalIgnoringCase(std::string_view a, std::string_view b) {

@@ -1,6 +1,7 @@
 // Small text helpers for messages.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ std::string didYouMean(std::string_view word, std::span<const std::string> candi
 
 std::string join(std::span<const std::string> words, std::string_view separator = ", ");
 std::vector<std::string> split(std::string_view text, char separator);
+// "3 GiB", "1.5 MiB", "999 B".
+std::string bytesText(std::uint64_t bytes);
 bool equalIgnoringCase(std::string_view a, std::string_view b);
 
 }  // namespace lucerna

@@ -77,7 +77,7 @@ Result<Header> readHeader(ByteView bytes, const std::string& name) {
   const std::uint64_t values = static_cast<std::uint64_t>(exr.width) * exr.height;
   Header header;
   header.info = {"EXR", static_cast<int>(exr.width), static_cast<int>(exr.height),
-                 static_cast<int>(mainChannels(names).size())};
+                 static_cast<int>(mainChannels(names).size()), ComponentType::F32};
   // Sizes beyond any limit are told by decodeImage; keep the product within 64 bits.
   header.leastBytes = std::min(values, std::uint64_t{1} << 48) *
                       std::min<std::uint64_t>(pixelBytes, 1 << 12) /
@@ -160,12 +160,25 @@ Status appendLayers(Imf::InputPart& part, bool severalParts, const std::string& 
   return {};
 }
 
+// Of all channels of a part, none of them taking more than a float.
+std::uint64_t bytesOf(const Imf::Header& header) {
+  const Imath::Box2i window = header.dataWindow();
+  ImageInfo info{"EXR", window.max.x - window.min.x + 1, window.max.y - window.min.y + 1,
+                 static_cast<int>(channelNames(header.channels()).size()), ComponentType::F32};
+  return info.bytes();
+}
+
 Result<std::vector<ExrLayer>> decodeAll(ByteView bytes, const std::string& name) {
   MemoryInput stream(bytes, name);
   Imf::MultiPartInputFile file(stream);
   std::vector<ExrLayer> layers;
+  std::uint64_t decoded = 0;
   for (int i = 0; i < file.parts(); ++i) {
     Imf::InputPart part(file, i);
+    decoded += bytesOf(part.header());
+    if (decoded > ImageLimits{}.maxBytes)
+      return error(ErrorKind::Input, "{}: its layers take more than {} once decoded; take some out",
+                   name, bytesText(ImageLimits{}.maxBytes));
     LUCERNA_TRY_VOID(appendLayers(part, file.parts() > 1, name, layers));
   }
   return layers;

@@ -54,7 +54,8 @@ Result<Header> readHeader(ByteView bytes, const std::string& name) {
   const auto pixels = static_cast<std::uint64_t>(std::max(parsed.width, 0)) *
                       static_cast<std::uint64_t>(std::max(parsed.height, 0));
   // Best case: runs of 127 in each of four planes, two bytes each.
-  return Header{{"HDR", parsed.width, parsed.height, 3}, parsed.dataStart + pixels * 8 / 127};
+  return Header{{"HDR", parsed.width, parsed.height, 3, ComponentType::F32},
+                parsed.dataStart + pixels * 8 / 127};
 }
 
 void storePixel(const std::uint8_t* rgbe, float* rgb) {

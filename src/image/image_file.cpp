@@ -47,12 +47,17 @@ Status checkSize(const codec::Header& header, codec::ByteView bytes, const std::
   const ImageInfo& info = header.info;
   if (info.width <= 0 || info.height <= 0)
     return codec::corrupt(name, info.format.c_str(), "its header declares a size of zero");
-  const auto pixels = static_cast<std::uint64_t>(info.width) * info.height;
-  if (info.width > limits.maxSide || info.height > limits.maxSide || pixels > limits.maxPixels)
+  if (info.width > limits.maxSide || info.height > limits.maxSide)
     return error(ErrorKind::Input,
-                 "{}: its {} header declares {}x{} pixels; at most {} a side and {} in all are "
-                 "read; make it smaller",
-                 name, info.format, info.width, info.height, limits.maxSide, limits.maxPixels);
+                 "{}: its {} header declares {}x{} pixels; at most {} a side are read; make it "
+                 "smaller",
+                 name, info.format, info.width, info.height, limits.maxSide);
+  if (info.bytes() > limits.maxBytes)
+    return error(ErrorKind::Input,
+                 "{}: its {} header declares {}x{} pixels, which take {} once decoded; at most {} "
+                 "are read; make it smaller",
+                 name, info.format, info.width, info.height, bytesText(info.bytes()),
+                 bytesText(limits.maxBytes));
   if (header.leastBytes > bytes.size())
     return error(ErrorKind::Input,
                  "{}: its {} header declares {}x{} pixels, which take {} bytes or more, but the "
@@ -75,6 +80,11 @@ Result<Bytes> encode(const std::filesystem::path& path, const Image& image) {
 }
 
 }  // namespace
+
+std::uint64_t ImageInfo::bytes() const {
+  return std::uint64_t(std::max(width, 0)) * std::uint64_t(std::max(height, 0)) *
+         (std::uint64_t(channels) * bytesPer(type));
+}
 
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name,
                           const ImageLimits& limits) {

@@ -15,7 +15,7 @@ namespace lucerna {
 
 struct ImageLimits {
   int maxSide = 32768;
-  std::uint64_t maxPixels = 512ull << 20;
+  std::uint64_t maxBytes = 2ull << 30;  // once decoded: 16384 x 8192 as F32 RGBA
 };
 
 // PNG keeps 8 or 16 bits; JPEG, TGA and BMP give U8; HDR gives F32 RGB; EXR gives F32 with the
@@ -29,6 +29,10 @@ Result<Image> readImage(const std::filesystem::path& path, const ImageLimits& li
 struct ImageInfo {
   std::string format;  // "PNG", "JPEG", ...
   int width = 0, height = 0, channels = 0;
+  ComponentType type = ComponentType::U8;
+
+  // Of the decoded picture; sides below zero count as none.
+  std::uint64_t bytes() const;
 };
 // Reads only the header.
 Result<ImageInfo> imageInfo(std::span<const std::byte> bytes, const std::string& name);

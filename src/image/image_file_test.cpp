@@ -97,6 +97,7 @@ TEST_F(ImageFileTest, PngKeepsEveryBit) {
       EXPECT_EQ(info->format, "PNG");
       EXPECT_THAT((std::vector{info->width, info->height, info->channels}),
                   ElementsAre(37, 19, channels));
+      EXPECT_EQ(info->bytes(), back->bytes().size());
     }
 }
 
@@ -108,6 +109,7 @@ TEST_F(ImageFileTest, ExrKeepsEveryBitAndTheChannels) {
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_TRUE(same(*back, image)) << channels;
     EXPECT_EQ(imageInfo(bytes, "a.exr")->channels, channels);
+    EXPECT_EQ(imageInfo(bytes, "a.exr")->bytes(), back->bytes().size());
   }
   const Image half = randomImage(37, 19, 3, ComponentType::Half);
   EXPECT_TRUE(
@@ -236,7 +238,7 @@ TEST_F(ImageFileTest, RandomDamageNeverDoesHarm) {
                                                             {"r.tga", tga(true)},
                                                             {"a.bmp", bmp()}};
   ImageLimits limits;
-  limits.maxPixels = 1 << 20;
+  limits.maxBytes = 4 << 20;
   log::setLevel(log::Level::Off);  // much of it decodes with a warning
   Random random(7);
   for (const auto& [name, bytes] : files)
@@ -261,9 +263,20 @@ TEST_F(ImageFileTest, DeclaredSizesAreCheckedBeforeAllocation) {
   };
   EXPECT_THAT(declare(30000, 16000), HasSubstr("truncated or corrupt"));
   EXPECT_THAT(declare(100000, 2), HasSubstr("at most 32768 a side"));
-  EXPECT_THAT(declare(32768, 32768), HasSubstr("at most 32768 a side and 536870912 in all"));
+  EXPECT_THAT(declare(32768, 32768), HasSubstr("take 3 GiB once decoded; at most 2 GiB are read"));
   EXPECT_THAT(declare(0, 5), HasSubstr("a size of zero"));
   EXPECT_THAT(declare(24, 11), HasSubstr("IHDR: CRC error"));
+}
+
+// A float takes four times what a byte takes.
+TEST_F(ImageFileTest, BytesAreLimitedNotPixels) {
+  const ImageLimits limits{.maxBytes = 1000};
+  const Image u8 = randomImage(16, 16, 3, ComponentType::U8);
+  const Image f32 = converted(u8, ComponentType::F32, 3);
+  EXPECT_TRUE(decodeImage(written("a.png", u8), "a.png", limits));
+  for (const char* name : {"a.hdr", "a.exr"})
+    EXPECT_THAT(decodeImage(written(name, f32), name, limits).error().message,
+                HasSubstr("declares 16x16 pixels, which take 3 KiB once decoded; at most 1000 B"));
 }
 
 TEST_F(ImageFileTest, WhatIsNoPictureIsNamed) {

@@ -114,7 +114,8 @@ Result<Header> readHeader(ByteView bytes, const std::string& name) {
   const std::uint32_t stored = palette ? 1 : (rgb ? 3 : 1) + (alpha ? 1 : 0);
   Header header;
   header.info = {"PNG", static_cast<int>(width), static_cast<int>(height),
-                 (rgb ? 3 : 1) + (alpha || chunks.transparency ? 1 : 0)};
+                 (rgb ? 3 : 1) + (alpha || chunks.transparency ? 1 : 0),
+                 bits == 16 ? ComponentType::U16 : ComponentType::U8};
   const std::uint64_t row = 1 + (static_cast<std::uint64_t>(width) * stored * bits + 7) / 8;
   header.leastBytes = kHeaderEnd + row * height / kDeflateRatio;
   return header;

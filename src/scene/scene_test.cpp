@@ -241,10 +241,17 @@ TEST(TextureStore, RefusesWhatIsTooMuchTogether) {
     store.addFile(folder / name);
   }
   std::vector<std::string> warnings;
-  const auto images = store.load(warnings, 13);
+  // 12 bytes a pixel
+  ASSERT_TRUE(writeImage(folder / "d.hdr", Image(2, 2, 3, ComponentType::F32)));
+  store.addFile(folder / "d.hdr");
+  const auto images = store.load(warnings, 57);
   EXPECT_EQ(images[1]->width(), 2);
-  EXPECT_EQ(images[2], checkerboard());
-  EXPECT_THAT(warnings, testing::ElementsAre(testing::HasSubstr("c.png is replaced")));
+  EXPECT_EQ(images[2]->width(), 3);
+  EXPECT_EQ(images[3], checkerboard());
+  EXPECT_THAT(warnings, testing::ElementsAre(testing::AllOf(
+                            testing::HasSubstr("d.hdr is replaced"),
+                            testing::HasSubstr("takes 48 B, and with it the textures take more "
+                                               "than 57 B together"))));
   std::filesystem::remove_all(folder);
 }
 

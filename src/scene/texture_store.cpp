@@ -1,14 +1,14 @@
 #include "scene/texture_store.hpp"
 
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "image/image_file.hpp"
 
 namespace lucerna::scene {
 
 namespace {
 
-// The texture side that OpenGL gives us, and 512 MiB as RGBA.
-constexpr ImageLimits kTextureLimits{.maxSide = 16384, .maxPixels = 128ull << 20};
+constexpr ImageLimits kTextureLimits{.maxSide = 16384};  // as OpenGL gives us
 
 }  // namespace
 
@@ -29,8 +29,8 @@ std::size_t TextureStore::addMissing(std::string name, std::string reason) {
 }
 
 // By the headers and before decoding, so that it is always the same images that are refused.
-void TextureStore::refuseBeyond(std::uint64_t maxPixels) {
-  std::vector<std::uint64_t> pixels(requests_.size(), 0);  // 0: decoding will say what is wrong
+void TextureStore::refuseBeyond(std::uint64_t maxBytes) {
+  std::vector<std::uint64_t> sizes(requests_.size(), 0);  // 0: decoding will say what is wrong
   parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Request& request = requests_[i];
@@ -41,25 +41,26 @@ void TextureStore::refuseBeyond(std::uint64_t maxPixels) {
         if (file) content = std::move(file).value();
       }
       const auto info = imageInfo(request.path.empty() ? request.bytes : content, request.name);
-      if (info && info->width > 0 && info->height > 0)
-        pixels[i] = static_cast<std::uint64_t>(info->width) * static_cast<unsigned>(info->height);
+      if (info && std::max(info->width, info->height) <= kTextureLimits.maxSide &&
+          info->bytes() <= kTextureLimits.maxBytes)
+        sizes[i] = info->bytes();
     }
   });
   std::uint64_t total = 0;
   for (std::size_t i = 0; i < requests_.size(); ++i) {
-    if (pixels[i] > kTextureLimits.maxPixels) continue;  // refused by itself
-    if (pixels[i] <= maxPixels - total) {
-      total += pixels[i];
+    if (sizes[i] <= maxBytes - total) {
+      total += sizes[i];
       continue;
     }
-    requests_[i].missing = "with it the textures have more than " + std::to_string(maxPixels) +
-                           " pixels together; make them smaller";
+    requests_[i].missing = fmt::format(
+        "it takes {}, and with it the textures take more than {} together; make them smaller",
+        bytesText(sizes[i]), bytesText(maxBytes));
   }
 }
 
 std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::string>& warnings,
-                                                             std::uint64_t maxPixels) {
-  refuseBeyond(maxPixels);
+                                                             std::uint64_t maxBytes) {
+  refuseBeyond(maxBytes);
   std::vector<std::shared_ptr<const Image>> images(requests_.size());
   std::vector<std::string> reasons(requests_.size());
   parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {

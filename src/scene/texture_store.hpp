@@ -22,12 +22,12 @@ class TextureStore {
 
   // One image a ticket, never null. An image that cannot be read gives one sentence in `warnings`
   // (in order of the tickets) and the checkerboard instead; so does one that would bring them all
-  // above `maxPixels` (2^30: 4 GiB as RGBA). Empties the store.
+  // above `maxBytes` once decoded. Empties the store.
   std::vector<std::shared_ptr<const Image>> load(std::vector<std::string>& warnings,
-                                                 std::uint64_t maxPixels = 1ull << 30);
+                                                 std::uint64_t maxBytes = 4ull << 30);
 
  private:
-  void refuseBeyond(std::uint64_t maxPixels);
+  void refuseBeyond(std::uint64_t maxBytes);
 
   struct Request {
     std::string name;
