@@ -38,23 +38,27 @@ Json checkScripts() {
   return {{"ok", true}, {"milliseconds", ms.count()}};
 }
 
-Result<Json> checkGl() {
+// "gl" is what `lucerna pipeline check --caps` reads.
+Status checkGl(Json& document) {
   LUCERNA_TRY(context, gpu::Context::create());
   LUCERNA_TRY(device, gpu::Device::create(*context));
-  Json json = Json::parse(device->capabilities().toJson());
-  json["platform"] = context->platform();
-  json["description"] = device->description();
-  json["gpu_clock"] = device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer";
-  return json;
+  document["gl"] = Json::parse(device->capabilities().toJson());
+  document["driver"] = {
+      {"description", device->description()},
+      {"context", context->platform()},
+      {"gpu_clock", device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer"}};
+  return {};
 }
 
 std::string text(const Json& document) {
   const Json& gl = document["gl"];
+  const Json& driver = document["driver"];
   std::string result =
       fmt::format("lucerna       {}\nOpenGL        {}\n", document["version"].get<std::string>(),
-                  gl["description"].get<std::string>());
-  result += fmt::format("context       {}\nGPU clock     {}\n", gl["platform"].get<std::string>(),
-                        gl["gpu_clock"].get<std::string>());
+                  driver["description"].get<std::string>());
+  result +=
+      fmt::format("context       {}\nGPU clock     {}\n", driver["context"].get<std::string>(),
+                  driver["gpu_clock"].get<std::string>());
   for (const Json& feature : gl["features"])
     result += fmt::format("feature       {}\n", feature.get<std::string>());
   result += fmt::format("limits        texture side {}, colour targets {}, samples {}\n",
@@ -71,17 +75,15 @@ std::string text(const Json& document) {
 }
 
 Result<int> doctor(bool json) {
-  auto gl = checkGl();
-  if (!gl)
+  Json document{{"version", LUCERNA_VERSION}};
+  if (const Status gl = checkGl(document); !gl)
     return error(ErrorKind::NoGl,
                  "{}\nLucerna needs OpenGL 4.5 through EGL. On Debian: apt-get install libegl1 "
                  "libgl1-mesa-dri",
                  gl.error().message);
-  const Json document{{"version", LUCERNA_VERSION},
-                      {"gl", std::move(*gl)},
-                      {"scripts", checkScripts()},
-                      {"shader_cache", shaderCache()},
-                      {"threads", threadCount()}};
+  document["scripts"] = checkScripts();
+  document["shader_cache"] = shaderCache();
+  document["threads"] = threadCount();
   if (json)
     printJson(document);
   else

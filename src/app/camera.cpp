@@ -3,27 +3,26 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "core/json_value.hpp"
 #include "core/text.hpp"
-#include "scene/json_reader.hpp"
+#include "scene/scene_json.hpp"
 
 namespace lucerna::app {
 namespace {
 
 constexpr std::uint64_t kMaxFileBytes = 64ull << 20;
-constexpr float kLargest = 1e9f;  // s or m: beyond it, floats lose the centimetres anyway
+constexpr float kLongest = 1e9f;  // s
 
-CameraPose readPose(const scene::JsonValue& json) {
+CameraPose readPose(const JsonValue& json) {
   CameraPose pose;
   json.require({"position", "target"});
   json.read("position", pose.position);
   json.read("target", pose.target);
   json.read("up", pose.up);
   json.readDegrees("fovY", pose.fovY, {0.1f, 175.f});
-  json.read("near", pose.near, {0.f, kLargest, "m"});
-  json.read("far", pose.far, {0.f, kLargest, "m"});
+  scene::readDepthRange(json, pose.near, pose.far);
   if (json.has("position") && pose.position == pose.target)
     json.fault("position and target are the same point; they must differ for a direction");
   return pose;
@@ -59,15 +58,14 @@ mat4 worldFromCamera(const CameraPose& pose) {
 
 Result<CameraPose> readCamera(const std::filesystem::path& path) {
   LUCERNA_TRY(text, readText(path, kMaxFileBytes));
-  LUCERNA_TRY(document, scene::parseJson(text, path.string()));
-  scene::JsonFaults faults(path.string(), text);
-  const scene::JsonValue root(document, "", faults);
+  LUCERNA_TRY(document, JsonDocument::parse(text, path.string(), ErrorKind::Input));
+  const JsonValue root = document.root();
   CameraPose pose;
   if (root.object({"lucerna", "position", "target", "up", "fovY", "near", "far"})) {
     if (root.has("lucerna")) root.format("camera/1");
     pose = readPose(root);
   }
-  LUCERNA_TRY_VOID(faults.status());
+  LUCERNA_TRY_VOID(document.status());
   return pose;
 }
 
@@ -77,26 +75,25 @@ Result<CameraPath> CameraPath::read(const std::filesystem::path& path) {
 }
 
 Result<CameraPath> CameraPath::fromJson(const std::string& text, const std::string& name) {
-  LUCERNA_TRY(document, scene::parseJson(text, name));
-  scene::JsonFaults faults(name, text);
-  const scene::JsonValue root(document, "", faults);
+  LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
+  const JsonValue root = document.root();
   CameraPath path;
   if (root.object({"lucerna", "keyframes"})) {
     if (root.has("lucerna")) root.format("camera-path/1");
     path.readKeyframes(root);
   }
-  LUCERNA_TRY_VOID(faults.status());
+  LUCERNA_TRY_VOID(document.status());
   return path;
 }
 
-void CameraPath::readKeyframes(const scene::JsonValue& root) {
+void CameraPath::readKeyframes(const JsonValue& root) {
   root.require({"keyframes"});
   if (!root.has("keyframes")) return;
-  for (const scene::JsonValue& entry : root.at("keyframes").elements()) {
+  for (const JsonValue& entry : root.at("keyframes").elements()) {
     if (!entry.object({"time", "position", "target", "up", "fovY"})) continue;
     entry.require({"time"});
     float time = 0.f;
-    const bool timed = entry.read("time", time, {-kLargest, kLargest, "s"});
+    const bool timed = entry.read("time", time, {-kLongest, kLongest, "s"});
     if (timed && !keys_.empty() && time <= keys_.back().time)
       entry.fault(fmt::format("its time {} does not come after the one before ({})", time,
                               keys_.back().time));

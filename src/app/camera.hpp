@@ -9,7 +9,7 @@
 #include "core/result.hpp"
 #include "scene/scene.hpp"
 
-namespace lucerna::scene {
+namespace lucerna {
 class JsonValue;
 }
 
@@ -46,7 +46,7 @@ class CameraPath {
     double time = 0;  // s, rising
     CameraPose pose;
   };
-  void readKeyframes(const scene::JsonValue& root);
+  void readKeyframes(const JsonValue& root);
 
   std::vector<Keyframe> keys_;  // at least one
 };

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
+#include "core/file.hpp"
+
 namespace lucerna::app {
 namespace {
 
@@ -51,7 +55,7 @@ TEST(CameraPath, FaultsNameTheKeyframe) {
     const auto path = CameraPath::fromJson(text, "path.json");
     return path ? std::string("it succeeded") : path.error().message;
   };
-  EXPECT_THAT(faultOf("{"), HasSubstr("path.json: is no JSON: parse error"));
+  EXPECT_THAT(faultOf("{"), HasSubstr("path.json:1:1: is no JSON"));
   EXPECT_THAT(faultOf("[]"), HasSubstr("wanted an object"));
   EXPECT_THAT(faultOf(R"({"lucerna": "scene/1", "keyframes": []})"), HasSubstr("camera-path/1"));
   EXPECT_THAT(faultOf(R"({"keyframes": []})"), HasSubstr("at least one"));
@@ -67,7 +71,28 @@ TEST(CameraPath, FaultsNameTheKeyframe) {
               HasSubstr("path.json:2: /keyframes/1: its time 1 does not come after"));
   EXPECT_THAT(
       faultOf(R"({"keyframes": [{"time": 1e999, "position": [0, 0, 0], "target": [0, 0, 1]}]})"),
-      HasSubstr("path.json"));
+      HasSubstr("path.json:1:30: found the number 1e999, wanted at most"));
+  EXPECT_THAT(faultOf(R"({"keyframes": [{"time": 0, "time": 1}]})"),
+              HasSubstr("path.json:1: the key \"time\" stands twice"));
+  EXPECT_THAT(faultOf(""), HasSubstr("path.json: is empty"));
+}
+
+TEST(Camera, FarMustLieBehindNear) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "depth.json";
+  const auto faultOf = [&](const std::string& depth) {
+    EXPECT_TRUE(writeText(file, R"({"position": [0, 0, 1], "target": [0, 0, 0],)"
+                                "\n" +
+                                    depth + "}"));
+    const auto pose = readCamera(file);
+    return pose ? std::string() : pose.error().message;
+  };
+  EXPECT_EQ(faultOf(R"("near": 1, "far": 2)"), "");
+  EXPECT_EQ(faultOf(R"("near": 1, "far": 0)"), "");
+  EXPECT_EQ(faultOf(R"("near": 1)"), "");
+  EXPECT_THAT(faultOf(R"("near": 2, "far": 1)"),
+              HasSubstr("depth.json:2: /far: found 1, wanted more than near, 2 m"));
+  EXPECT_THAT(faultOf(R"("near": 1, "far": 1)"), HasSubstr("wanted more than near"));
+  EXPECT_THAT(faultOf(R"("near": -1)"), HasSubstr("/near: found -1, wanted a number from 0"));
 }
 
 TEST(Camera, LooksAtItsTargetAlsoStraightDown) {

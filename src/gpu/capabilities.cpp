@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "core/json_value.hpp"
 #include "core/text.hpp"
 
 namespace lucerna::gpu {
@@ -34,45 +35,30 @@ std::vector<std::string> formatNames() {
   return names;
 }
 
-// The strings of the array `key`, each one of `known`.
-Result<std::vector<std::string>> readNames(const Json& json, const char* key,
-                                           const std::vector<std::string>& known,
-                                           const std::string& file) {
-  const auto list = json.find(key);
-  if (list == json.end() || !list->is_array())
-    return error(ErrorKind::Input, "{}: \"{}\" must be an array of names, one or more of {}", file,
-                 key, join(known));
-  std::vector<std::string> names;
-  for (const Json& entry : *list) {
-    const std::string word = entry.is_string() ? entry.get<std::string>() : entry.dump();
-    if (!entry.is_string() || std::find(known.begin(), known.end(), word) == known.end())
-      return error(ErrorKind::Input, "{}: \"{}\" has '{}', which is not one of {}{}", file, key,
-                   word, join(known), didYouMean(word, known));
-    names.push_back(word);
+// The indices in `known` of the names in the list `key`.
+std::vector<std::size_t> readNames(const JsonValue& json, const char* key,
+                                   const std::vector<std::string>& known) {
+  std::vector<std::size_t> indices;
+  if (!json.has(key)) {
+    json.wrong(fmt::format("no \"{}\"", key), "a list of names, each one of " + join(known));
+    return indices;
   }
-  return names;
+  for (const JsonValue& name : json.at(key).elements())
+    if (std::size_t index = 0; name.choice(known, index)) indices.push_back(index);
+  return indices;
 }
 
-Status checkKeys(const Json& json, const std::string& file) {
-  std::vector<std::string> known = {"name", "features", "renderable", "softwareRasterizer"};
-  for (const Limit& limit : kLimits) known.emplace_back(limit.key);
-  for (const auto& [key, value] : json.items())
-    if (std::find(known.begin(), known.end(), key) == known.end())
-      return error(ErrorKind::Input, "{}: unknown key \"{}\"; known are {}{}", file, key,
-                   join(known), didYouMean(key, known));
-  return {};
-}
-
-Status readLimits(const Json& json, const std::string& file, Capabilities& result) {
-  for (const Limit& limit : kLimits) {
-    const auto value = json.find(limit.key);
-    if (value == json.end()) continue;
-    if (!value->is_number_integer() || *value < 1 || *value > 1 << 20)
-      return error(ErrorKind::Input, "{}: \"{}\" is {}, but must be a whole number from 1 to {}",
-                   file, limit.key, value->dump(), 1 << 20);
-    result.*limit.member = value->get<int>();
-  }
-  return {};
+void readCapabilities(const JsonValue& json, Capabilities& result) {
+  if (!json.object({"name", "features", "renderable", "maxTextureSide", "maxColorTargets",
+                    "maxSamples", "softwareRasterizer"}))
+    return;
+  json.read("name", result.name);
+  for (const std::size_t i : readNames(json, "features", featureNames()))
+    result.features.emplace(kFeatures[i]);
+  for (const std::size_t i : readNames(json, "renderable", formatNames()))
+    result.renderable.insert(allFormats()[i].format);
+  for (const Limit& limit : kLimits) json.readInteger(limit.key, result.*limit.member, 1, 1 << 20);
+  json.read("softwareRasterizer", result.softwareRasterizer);
 }
 
 }  // namespace
@@ -89,42 +75,12 @@ Capabilities Capabilities::baseline() {
 }
 
 Result<Capabilities> Capabilities::fromJson(const std::string& text, const std::string& name) {
-  constexpr int kMaxDepth = 8;  // the form has two levels; what prints deeper ones recurses
-  bool tooDeep = false;
-  const auto watchDepth = [&](int depth, Json::parse_event_t, Json&) {
-    tooDeep = tooDeep || depth > kMaxDepth;
-    return !tooDeep;
-  };
-  Json json;
-  try {
-    json = Json::parse(text, watchDepth);
-  } catch (const Json::parse_error& e) {
-    return error(ErrorKind::Input, "{}: not JSON: {}", name, e.what());
-  }
-  if (tooDeep)
-    return error(ErrorKind::Input, "{}: more than {} nested arrays and objects; wanted two", name,
-                 kMaxDepth);
-  if (!json.is_object())
-    return error(ErrorKind::Input,
-                 "{}: expected an object with \"features\" and \"renderable\", found {}", name,
-                 json.type_name());
-  LUCERNA_TRY_VOID(checkKeys(json, name));
+  LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
   Capabilities result;
-  LUCERNA_TRY(features, readNames(json, "features", featureNames(), name));
-  LUCERNA_TRY(formats, readNames(json, "renderable", formatNames(), name));
-  result.features.insert(features.begin(), features.end());
-  for (const std::string& format : formats) result.renderable.insert(*formatFromName(format));
-  LUCERNA_TRY_VOID(readLimits(json, name, result));
-  if (const auto value = json.find("softwareRasterizer"); value != json.end()) {
-    if (!value->is_boolean())
-      return error(ErrorKind::Input, "{}: \"softwareRasterizer\" is {}, but must be true or false",
-                   name, value->dump());
-    result.softwareRasterizer = value->get<bool>();
-  }
-  const auto own = json.find("name");
-  if (own != json.end() && !own->is_string())
-    return error(ErrorKind::Input, "{}: \"name\" is {}, but must be a string", name, own->dump());
-  result.name = own == json.end() ? name : own->get<std::string>();
+  result.name = name;
+  const JsonValue root = document.root();
+  readCapabilities(root.has("gl") ? root.at("gl") : root, result);
+  LUCERNA_TRY_VOID(document.status());
   return result;
 }
 

@@ -30,9 +30,9 @@ struct Capabilities {
 
   static Capabilities baseline();  // OpenGL 4.5 as DESIGN section 3 states it
   // {"name", "features": [...], "renderable": [...], "maxTextureSide", "maxColorTargets",
-  // "maxSamples", "softwareRasterizer"}: features and renderable are required, the others keep
-  // their defaults. Unknown keys, features and formats are errors (ErrorKind::Input) that name
-  // them; `name` is what messages call the text, usually its path.
+  // "maxSamples", "softwareRasterizer"}, or that under "gl", as `lucerna doctor --json` prints it.
+  // features and renderable are required, the others keep their defaults. The error
+  // (ErrorKind::Input) tells every fault; `name` is what it calls the text, usually its path.
   static Result<Capabilities> fromJson(const std::string& text, const std::string& name);
   std::string toJson() const;
 };

@@ -50,19 +50,28 @@ TEST(Capabilities, LimitsAndNameMayBeMissing) {
 }
 
 TEST(Capabilities, FaultsAreNamed) {
-  EXPECT_THAT(faultIn("{"), HasSubstr("not JSON"));
-  EXPECT_THAT(faultIn("[]"), HasSubstr("found array"));
-  EXPECT_THAT(faultIn(R"({"renderable": []})"), HasSubstr("\"features\" must be an array"));
+  EXPECT_THAT(faultIn("{"), HasSubstr("is no JSON"));
+  EXPECT_THAT(faultIn("[]"), HasSubstr("found [], wanted an object"));
+  EXPECT_THAT(faultIn(R"({"renderable": []})"), HasSubstr("found no \"features\", wanted a list"));
   EXPECT_THAT(faultIn(R"({"features": ["computer"], "renderable": []})"),
               HasSubstr("did you mean 'compute'"));
-  EXPECT_THAT(faultIn(R"({"features": [], "renderable": ["Rgba16"]})"), HasSubstr("'Rgba16'"));
+  EXPECT_THAT(faultIn(R"({"features": [], "renderable": ["Rgba16"]})"), HasSubstr("\"Rgba16\""));
   EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSample": 4})"),
               HasSubstr("did you mean 'maxSamples'"));
-  EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSamples": 0})"),
-              HasSubstr("from 1 to"));
   EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "maxSamples": 1.5})"),
-              HasSubstr("whole number"));
-  EXPECT_THAT(faultIn(R"({"features": [], "renderable": [], "name": 3})"), HasSubstr("a string"));
+              HasSubstr("found 1.5, wanted a whole number from 1 to"));
+  EXPECT_THAT(faultIn(R"({"features": 3, "renderable": [], "maxSamples": 0, "name": 3})"),
+              testing::AllOf(HasSubstr("caps.json:1: /features: found 3"), HasSubstr("/maxSamples"),
+                             HasSubstr("/name")));
+}
+
+TEST(Capabilities, AreFoundInWhatDoctorPrints) {
+  const auto caps = Capabilities::fromJson(
+      R"({"version": "0.1", "gl": {"features": [], "renderable": ["R8Unorm"], "maxSamples": 2}})",
+      "doctor.json");
+  ASSERT_TRUE(caps) << caps.error().message;
+  EXPECT_EQ(caps->maxSamples, 2);
+  EXPECT_THAT(faultIn(R"({"gl": {"features": []}})"), HasSubstr("/gl: found no \"renderable\""));
 }
 
 TEST(Workarounds, FollowTheDriverAndCanBeSwitchedOff) {

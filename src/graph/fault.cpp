@@ -47,6 +47,8 @@ const char* nameOf(FaultKind kind) {
       return "EmptyPipeline";
     case FaultKind::WrongFrequency:
       return "WrongFrequency";
+    case FaultKind::BadForm:
+      return "BadForm";
   }
   return "";
 }

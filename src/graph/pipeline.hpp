@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "graph/fault.hpp"
 #include "graph/value.hpp"
 
 namespace lucerna::graph {
@@ -32,14 +33,15 @@ struct Pipeline {
   std::string output{};  // "Row.port" or ""
   std::vector<PassRow> passes{};
   std::string source{};  // file, for messages
+  // What the text that it was read from has wrong (BadForm). validate() gives them with its own, so
+  // that all faults are told at once; what is wrong is left out above.
+  std::vector<Fault> formFaults{};
 };
 
-// Limits of pipelineFromJson.
-inline constexpr std::size_t kMaxPipelineBytes = 4 << 20;
 inline constexpr std::size_t kMaxPipelineRows = 256;
-inline constexpr int kMaxPipelineDepth = 16;
 
-// Errors (ErrorKind::Pipeline) list every fault of form, each with its place.
+// Faults of form are in the result. An error (ErrorKind::Pipeline) is a text that is no JSON at
+// all, or no object.
 Result<Pipeline> pipelineFromJson(const std::string& text, const std::string& source);
 // Gives the same pipeline back through pipelineFromJson, places aside.
 std::string toJson(const Pipeline& pipeline);

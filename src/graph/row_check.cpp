@@ -16,7 +16,8 @@ class Checker {
  public:
   Checker(const Pipeline& pipeline, std::size_t index, const Registry& registry,
           const gpu::Capabilities& capabilities)
-      : row_(pipeline.passes[index]),
+      : pipeline_(pipeline),
+        row_(pipeline.passes[index]),
         place_(rowPlace(pipeline, index)),
         registry_(registry),
         capabilities_(capabilities) {}
@@ -24,6 +25,7 @@ class Checker {
   RowCheck run() {
     const PassType* type = registry_.find(row_.type);
     if (!type) {
+      if (row_.type.empty() && !pipeline_.formFaults.empty()) return std::move(check_);  // told
       type = likelyType();
       if (!type) return std::move(check_);
       check_.description = type->describe({});
@@ -145,6 +147,7 @@ class Checker {
                   fmt::format("{} x {} pixels", port.size.width, port.size.height));
   }
 
+  const Pipeline& pipeline_;
   const PassRow& row_;
   const std::string place_;
   const Registry& registry_;

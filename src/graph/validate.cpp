@@ -46,7 +46,8 @@ class Validator {
     std::stable_sort(faults_.begin(), faults_.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     Validation result;
-    bool good = true;
+    result.faults = pipeline_.formFaults;
+    bool good = pipeline_.formFaults.empty();
     for (auto& [row, fault] : faults_) {
       good = good && fault.severity == Severity::Warning;
       result.faults.push_back(std::move(fault));

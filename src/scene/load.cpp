@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "scene/append.hpp"
 #include "scene/builtin/builtin.hpp"
 #include "scene/gltf/gltf_reader.hpp"
 #include "scene/import/import.hpp"
@@ -45,44 +46,53 @@ void keepFirstClip(Scene& scene) {
   clips.resize(1);
 }
 
-Result<Scene> readFileOfScene(const fs::path& path, IncludeChain& chain) {
-  const std::string extension = lowerExtension(path);
-  if (extension == ".gltf" || extension == ".glb") return readGltf(path);
+// A scene with meshes and textures of its own.
+Result<Scene> readWhole(const std::string& pathOrName) {
+  if (pathOrName.starts_with("builtin:")) return makeBuiltin(pathOrName);
+  const std::string extension = lowerExtension(pathOrName);
+  if (extension == ".gltf" || extension == ".glb") return readGltf(pathOrName);
   static constexpr std::array kImported{".obj", ".ac", ".acc", ".dae", ".fbx", ".ply", ".3ds"};
   if (std::find(kImported.begin(), kImported.end(), extension) != kImported.end())
-    return importScene(path);
-  if (extension == ".json") {
-    Scene scene;
-    LUCERNA_TRY_VOID(addSceneJson(scene, path, chain));
-    return scene;
-  }
+    return importScene(pathOrName);
   return error(ErrorKind::Input,
                "{}: found the extension '{}'; wanted one of .gltf .glb .obj .ac .acc .dae .fbx "
                ".ply .3ds, or .json for a scene JSON",
-               path.string(), extension);
+               pathOrName, extension);
+}
+
+// What the scene JSON beside a file says.
+Status readBeside(Scene& scene, fs::path path, SceneLoad& load) {
+  path.replace_extension(".lucerna.json");
+  std::error_code code;
+  return fs::exists(path, code) ? addSceneJson(scene, path, load) : Status();
 }
 
 }  // namespace
 
-Result<Scene> readScene(const std::string& pathOrName, IncludeChain& chain) {
-  if (pathOrName.starts_with("builtin:")) return makeBuiltin(pathOrName);
-  const fs::path path(pathOrName);
-  LUCERNA_TRY_VOID(checkReadable(path));
-  LUCERNA_TRY(scene, readFileOfScene(path, chain));
-  if (lowerExtension(path) != ".json") {
-    keepFirstClip(scene);
-    fs::path beside = path;
-    beside.replace_extension(".lucerna.json");
-    std::error_code code;
-    if (fs::exists(beside, code)) LUCERNA_TRY_VOID(addSceneJson(scene, beside, chain));
+Result<Scene> readScene(const std::string& pathOrName, SceneLoad& load) {
+  const bool isFile = !pathOrName.starts_with("builtin:");
+  if (isFile) LUCERNA_TRY_VOID(checkReadable(pathOrName));
+  Scene scene;
+  if (isFile && lowerExtension(pathOrName) == ".json") {
+    LUCERNA_TRY_VOID(addSceneJson(scene, pathOrName, load));
+  } else {
+    LUCERNA_TRY(whole, readWhole(pathOrName));
+    scene = std::move(whole);
+    moveShared(scene, load.meshes, load.textures);
+    if (isFile) {
+      keepFirstClip(scene);
+      LUCERNA_TRY_VOID(readBeside(scene, pathOrName, load));
+    }
   }
-  if (scene.name.empty()) scene.name = path.filename().string();
+  if (scene.name.empty()) scene.name = fs::path(pathOrName).filename().string();
   return scene;
 }
 
 Result<Scene> loadScene(const std::string& pathOrName) {
-  IncludeChain chain;
-  LUCERNA_TRY(scene, readScene(pathOrName, chain));
+  SceneLoad load;
+  LUCERNA_TRY(scene, readScene(pathOrName, load));
+  scene.meshes = std::move(load.meshes);
+  scene.textures = std::move(load.textures);
   complete(scene);
   return scene;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,13 +12,18 @@
 
 namespace lucerna::scene {
 
-// The files being read, outermost first: one that includes itself is refused.
-struct IncludeChain {
-  std::vector<std::filesystem::path> open;
-  int total = 0;  // scenes included so far
+// One call of loadScene(). However often a file is included, it is read once: the scenes that come
+// of it share its meshes and textures, which stand here meanwhile, their own lists being empty.
+struct SceneLoad {
+  std::vector<Mesh> meshes;
+  std::vector<Texture> textures;
+  std::vector<std::filesystem::path> open;  // JSONs being read, outermost first
+  // What was included, by path or built-in name. Its warnings have been passed on.
+  std::map<std::string, Result<Scene>> included;
+  std::uint64_t repeatedBytes = 0;  // of scenes that were included again
 };
 
-// loadScene() without complete().
-Result<Scene> readScene(const std::string& pathOrName, IncludeChain& chain);
+// loadScene() without complete(); meshes and textures are in `load`.
+Result<Scene> readScene(const std::string& pathOrName, SceneLoad& load);
 
 }  // namespace lucerna::scene

@@ -1,12 +1,11 @@
 #include "scene/scene_json.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "core/file.hpp"
+#include "core/json_value.hpp"
 #include "core/text.hpp"
 #include "scene/append.hpp"
-#include "scene/json_reader.hpp"
 #include "scene/scene_json_parts.hpp"
 
 namespace lucerna::scene {
@@ -15,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "scene/1";
-constexpr int kMaxIncludes = 1000;
+constexpr std::size_t kMaxFiles = 1000;
+constexpr std::uint64_t kMaxRepeatedBytes = 256ull << 20;
 constexpr std::size_t kMaxDepth = 32;
 
 // "rotation": three Euler angles, about x first, then y, then z, in degrees; or a quaternion x y z
@@ -53,70 +53,94 @@ void readScale(const JsonValue& include, Node& node) {
   }
 }
 
-void include(const JsonValue& entry, const fs::path& folder, Scene& scene, IncludeChain& chain) {
-  if (!entry.object({"file", "translation", "rotation", "scale"})) return;
-  std::string file;
-  if (!entry.has("file")) return entry.fault("found no \"file\", wanted the scene to include");
-  if (!entry.read("file", file)) return;
-  Node node;
-  node.name = file;
-  entry.read("translation", node.translation);
-  readRotation(entry, node);
-  readScale(entry, node);
-  if (++chain.total > kMaxIncludes)
-    return entry.fault(fmt::format("more than {} scenes are included", kMaxIncludes));
-  const std::string path = file.starts_with("builtin:") ? file : (folder / file).string();
-  Result<Scene> part = readScene(path, chain);
-  if (!part) return entry.at("file").fault(part.error().message);
-  append(scene, std::move(*part), node);
+// The scene to include, read when it is met for the first time. Null if it is faulty, which is told
+// once.
+Scene* includedScene(const JsonValue& file, const std::string& name, const fs::path& folder,
+                     SceneLoad& load) {
+  const bool builtin = name.starts_with("builtin:");
+  std::error_code code;
+  const std::string key = builtin ? name : fs::weakly_canonical(folder / name, code).string();
+  if (const auto known = load.included.find(key); known != load.included.end()) {
+    if (!known->second) return nullptr;
+    load.repeatedBytes += bytesOf(*known->second);
+    if (load.repeatedBytes <= kMaxRepeatedBytes) return &*known->second;
+    file.fault(fmt::format("included again and again, scenes take more than {}; include fewer",
+                           bytesText(kMaxRepeatedBytes)));
+    return nullptr;
+  }
+  if (load.included.size() >= kMaxFiles) {
+    file.fault(fmt::format("more than {} different scenes are included", kMaxFiles));
+    return nullptr;
+  }
+  Result<Scene> scene = readScene(builtin ? name : (folder / name).string(), load);
+  if (!scene) file.fault(scene.error().message);
+  Result<Scene>& kept = load.included.insert_or_assign(key, std::move(scene)).first->second;
+  return kept ? &*kept : nullptr;
+}
+
+void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scene,
+                  SceneLoad& load) {
+  std::map<const Scene*, std::size_t> materials;  // where those of an included scene begin
+  for (const JsonValue& entry : includes.elements()) {
+    if (!entry.object({"file", "translation", "rotation", "scale"})) continue;
+    Node node;
+    if (!entry.has("file")) entry.wrong("no \"file\"", "the scene to include");
+    if (!entry.read("file", node.name)) continue;
+    entry.read("translation", node.translation);
+    readRotation(entry, node);
+    readScale(entry, node);
+    Scene* part = includedScene(entry.at("file"), node.name, folder, load);
+    if (!part) continue;
+    const auto [known, isNew] = materials.emplace(part, scene.materials.size());
+    append(scene, *part, node, isNew ? std::nullopt : std::optional(known->second));
+    part->warnings.clear();
+  }
 }
 
 // The file may not be among those that are being read.
-Status enter(const fs::path& path, IncludeChain& chain) {
+Status enter(const fs::path& path, SceneLoad& load) {
   std::error_code code;
   fs::path whole = fs::weakly_canonical(path, code);
   if (code) whole = fs::absolute(path, code);
-  const auto found = std::find(chain.open.begin(), chain.open.end(), whole);
-  if (found != chain.open.end()) {
+  const auto found = std::find(load.open.begin(), load.open.end(), whole);
+  if (found != load.open.end()) {
     std::string circle;
-    for (auto it = found; it != chain.open.end(); ++it) circle += it->filename().string() + " -> ";
+    for (auto it = found; it != load.open.end(); ++it) circle += it->filename().string() + " -> ";
     return error(ErrorKind::Input, "{}: includes itself ({}{}); remove one of these includes",
                  path.string(), circle, whole.filename().string());
   }
-  if (chain.open.size() >= kMaxDepth)
+  if (load.open.size() >= kMaxDepth)
     return error(ErrorKind::Input, "{}: includes are nested more than {} deep", path.string(),
                  kMaxDepth);
-  chain.open.push_back(std::move(whole));
+  load.open.push_back(std::move(whole));
   return {};
 }
 
-void apply(const JsonValue& root, const fs::path& folder, Scene& scene, IncludeChain& chain) {
+void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoad& load) {
   if (!root.object({"$schema", "lucerna", "include", "materials", "lights", "lightSettings",
                     "cameras", "background", "ambient", "exposure"}))
     return;
   root.format(kFormat);
-  if (root.has("include"))
-    for (const JsonValue& entry : root.at("include").elements())
-      include(entry, folder, scene, chain);
+  if (root.has("include")) readIncludes(root.at("include"), folder, scene, load);
   if (root.has("materials")) readMaterials(root.at("materials"), scene);
   if (root.has("lightSettings")) readLightSettings(root.at("lightSettings"), scene);
   if (root.has("lights")) readLights(root.at("lights"), scene);
   if (root.has("cameras")) readCameras(root.at("cameras"), scene);
-  if (root.has("background")) readBackground(root.at("background"), folder, scene);
+  if (root.has("background"))
+    readBackground(root.at("background"), folder, load.textures, scene.background);
   root.read("ambient", scene.ambient, kNotNegative);
   root.read("exposure", scene.exposure, {-30.f, 30.f, "EV"});
 }
 
 }  // namespace
 
-Status addSceneJson(Scene& scene, const fs::path& path, IncludeChain& chain) {
+Status addSceneJson(Scene& scene, const fs::path& path, SceneLoad& load) {
   LUCERNA_TRY(text, readText(path));
-  LUCERNA_TRY(document, parseJson(text, path.string()));
-  LUCERNA_TRY_VOID(enter(path, chain));
-  JsonFaults faults(path.string(), text);
-  apply(JsonValue(document, "", faults), path.parent_path(), scene, chain);
-  chain.open.pop_back();
-  return faults.status();
+  LUCERNA_TRY(document, JsonDocument::parse(text, path.string(), ErrorKind::Input));
+  LUCERNA_TRY_VOID(enter(path, load));
+  apply(document.root(), path.parent_path(), scene, load);
+  load.open.pop_back();
+  return document.status();
 }
 
 }  // namespace lucerna::scene

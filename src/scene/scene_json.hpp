@@ -4,14 +4,19 @@
 
 #include <filesystem>
 
-#include "core/result.hpp"
+#include "core/json_value.hpp"
 #include "scene/load_parts.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
 
-// Applies the JSON to `scene`: includes, then materials and light settings by name, then new
-// lights, cameras and settings. The error lists every fault, one a line.
-Status addSceneJson(Scene& scene, const std::filesystem::path& path, IncludeChain& chain);
+// Applies the JSON to `scene`, whose meshes and textures are in `load`: includes, then materials
+// and light settings by name, then new lights, cameras and settings. The error lists every fault,
+// one a line.
+Status addSceneJson(Scene& scene, const std::filesystem::path& path, SceneLoad& load);
+
+// "near" and "far" of a camera, m; 0 or absent: chosen from the scene. Reports and returns false if
+// far does not lie behind near.
+bool readDepthRange(const JsonValue& camera, float& near, float& far);
 
 }  // namespace lucerna::scene

@@ -2,13 +2,14 @@
 #include <algorithm>
 
 #include "core/text.hpp"
+#include "scene/scene_json.hpp"
 #include "scene/scene_json_parts.hpp"
 
 namespace lucerna::scene {
 namespace {
 
-constexpr Limits kHalfAngle{0.f, 180.f};
-constexpr Limits kMetres{0.f, 1e30f, "m"};
+constexpr NumberRange kHalfAngle{0.f, 180.f};
+constexpr NumberRange kMetres{0.f, 1e30f, "m"};
 
 // A light whose colour is relative, as in VRML: intensity 1 gives a white surface brightness 1.
 constexpr float kRelativeUnit = kPi;
@@ -56,18 +57,18 @@ bool addPlacedNode(const JsonValue& from, const std::string& name, bool needsPos
                    bool needsDirection, Scene& scene, std::uint32_t& node) {
   vec3 position(0.f), target(0.f), direction(0.f, 0.f, -1.f), up(0.f, 1.f, 0.f);
   if (needsPosition && !from.has("position")) {
-    from.fault("found no \"position\", wanted [x, y, z] in metres");
+    from.wrong("no \"position\"", "[x, y, z] in metres");
     return false;
   }
   from.read("position", position);
   const bool hasTarget = from.read("target", target);
   const bool hasDirection = from.read("direction", direction);
   if (needsDirection && !from.has("target") && !from.has("direction")) {
-    from.fault("found neither \"target\" nor \"direction\", wanted one of them");
+    from.wrong("neither \"target\" nor \"direction\"", "one of them");
     return false;
   }
   if (hasTarget && hasDirection) {
-    from.fault("found both \"target\" and \"direction\", wanted one of them");
+    from.wrong("both \"target\" and \"direction\"", "one of them");
     return false;
   }
   if (hasTarget) direction = target - position;
@@ -100,7 +101,7 @@ void readLights(const JsonValue& lights, Scene& scene) {
     from.read("name", light.name);
     int kind = -1;
     if (!from.has("kind"))
-      from.fault("found no \"kind\", wanted directional, point or spot");
+      from.wrong("no \"kind\"", "directional, point or spot");
     else
       from.readChoice("kind", {"directional", "point", "spot"}, kind);
     if (kind < 0) continue;
@@ -133,6 +134,15 @@ void readLightSettings(const JsonValue& settings, Scene& scene) {
   }
 }
 
+bool readDepthRange(const JsonValue& from, float& near, float& far) {
+  constexpr NumberRange kDepth{0.f, 1e9f, "m"};  // beyond it, floats lose the centimetres anyway
+  from.read("near", near, kDepth);
+  from.read("far", far, kDepth);
+  if (far == 0.f || far > near) return true;
+  from.at("far").wrong(fmt::format("more than near, {:g} m; or 0, to have it chosen", near));
+  return false;
+}
+
 // Cameras given here stand before those of the scene's files: the first is the default.
 void readCameras(const JsonValue& cameras, Scene& scene) {
   std::vector<Camera> added;
@@ -146,14 +156,9 @@ void readCameras(const JsonValue& cameras, Scene& scene) {
     from.readDegrees("fovY", camera.fovY, {1.f, 170.f});
     camera.orthographic = from.read("height", camera.height, {1e-6f, 1e9f, "m"});
     if (camera.orthographic && from.has("fovY"))
-      from.fault("found both \"fovY\" (perspective) and \"height\" (orthographic), wanted one");
+      from.wrong("both \"fovY\" (perspective) and \"height\" (orthographic)", "one of them");
     from.read("aspect", camera.aspect, {0.01f, 100.f});
-    from.read("near", camera.near, kMetres);
-    from.read("far", camera.far, kMetres);
-    if (camera.far > 0.f && camera.far <= camera.near) {
-      from.at("far").wrong(fmt::format("more than near, {:g} m", camera.near));
-      continue;
-    }
+    if (!readDepthRange(from, camera.near, camera.far)) continue;
     if (addPlacedNode(from, camera.name, true, true, scene, camera.node)) added.push_back(camera);
   }
   scene.cameras.insert(scene.cameras.begin(), added.begin(), added.end());

@@ -29,7 +29,7 @@ void readMaterial(const JsonValue& from, Material& material) {
 }
 
 std::uint32_t addPicture(const JsonValue& value, const std::filesystem::path& folder,
-                         Scene& scene) {
+                         std::vector<Texture>& textures) {
   std::string name;
   if (!value.text(name)) return kNone;
   TextureStore store;
@@ -41,8 +41,8 @@ std::uint32_t addPicture(const JsonValue& value, const std::filesystem::path& fo
   for (const std::string& problem : problems)
     value.fault(problem + "; wanted a picture (PNG, JPEG, TGA, BMP, HDR or EXR)");
   texture.wrapS = texture.wrapT = Wrap::ClampToEdge;
-  scene.textures.push_back(std::move(texture));
-  return static_cast<std::uint32_t>(scene.textures.size() - 1);
+  textures.push_back(std::move(texture));
+  return static_cast<std::uint32_t>(textures.size() - 1);
 }
 
 }  // namespace
@@ -64,32 +64,31 @@ void readMaterials(const JsonValue& materials, Scene& scene) {
   }
 }
 
-void readBackground(const JsonValue& from, const std::filesystem::path& folder, Scene& scene) {
+void readBackground(const JsonValue& from, const std::filesystem::path& folder,
+                    std::vector<Texture>& textures, Background& background) {
   if (!from.object({"color", "image", "faces", "intensity"})) return;
   if (from.has("image") && from.has("faces"))
-    return from.fault("found both \"image\" and \"faces\", wanted one of them");
-  Background& background = scene.background;
+    return from.wrong("both \"image\" and \"faces\"", "one of them");
   if (from.read("color", background.color, kNotNegative)) background.kind = BackgroundKind::Color;
   from.read("intensity", background.intensity, kNotNegative);
   if (from.has("image")) {
-    background.texture = addPicture(from.at("image"), folder, scene);
+    background.texture = addPicture(from.at("image"), folder, textures);
     if (background.texture != kNone) background.kind = BackgroundKind::Image;
   }
   if (!from.has("faces")) return;
   const std::vector<JsonValue> faces = from.at("faces").elements();
   if (faces.size() != 6) return from.at("faces").wrong("six pictures: +x, -x, +y, -y, +z, -z");
-  std::array<std::uint32_t, 6> textures{};
-  for (std::size_t i = 0; i < 6; ++i) textures[i] = addPicture(faces[i], folder, scene);
-  if (std::find(textures.begin(), textures.end(), kNone) != textures.end()) return;
-  const Image& first = *scene.textures[textures[0]].image;
+  std::array<std::uint32_t, 6> sides{};
+  for (std::size_t i = 0; i < 6; ++i) sides[i] = addPicture(faces[i], folder, textures);
+  if (std::find(sides.begin(), sides.end(), kNone) != sides.end()) return;
+  const Image& first = *textures[sides[0]].image;
   for (std::size_t i = 0; i < 6; ++i) {
-    const Image& image = *scene.textures[textures[i]].image;
+    const Image& image = *textures[sides[i]].image;
     if (image.width() != image.height() || image.width() != first.width())
-      return faces[i].fault(
-          fmt::format("found a picture of {} x {}, wanted six squares of one size", image.width(),
-                      image.height()));
+      return faces[i].wrong(fmt::format("a picture of {} x {}", image.width(), image.height()),
+                            "six squares of one size");
   }
-  background.faces = textures;
+  background.faces = sides;
   background.kind = BackgroundKind::CubeMap;
 }
 

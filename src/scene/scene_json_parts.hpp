@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-#include "scene/json_reader.hpp"
+#include "core/json_value.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
@@ -13,6 +13,8 @@ void readMaterials(const JsonValue& materials, Scene& scene);
 void readLights(const JsonValue& lights, Scene& scene);
 void readLightSettings(const JsonValue& settings, Scene& scene);
 void readCameras(const JsonValue& cameras, Scene& scene);
-void readBackground(const JsonValue& background, const std::filesystem::path& folder, Scene& scene);
+// Pictures go to `textures`, which the background's indices mean.
+void readBackground(const JsonValue& from, const std::filesystem::path& folder,
+                    std::vector<Texture>& textures, Background& background);
 
 }  // namespace lucerna::scene

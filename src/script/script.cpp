@@ -42,21 +42,21 @@ Status checkAllUsed(const ScriptInput& input, const std::vector<std::string>& de
   return {};
 }
 
-Result<graph::Pipeline> fromAnswer(const Json& answer, const std::string& name,
-                                   const ScriptInput& input) {
+Result<graph::Pipeline> fromAnswer(Json answer, const std::string& name, const ScriptInput& input) {
   if (answer.contains("error"))
     return error(ErrorKind::Pipeline, "{}", answer["error"].get<std::string>());
   LUCERNA_TRY_VOID(checkAllUsed(input, answer.at("params").get<std::vector<std::string>>(), name));
-  LUCERNA_TRY(pipeline, graph::pipelineFromJson(answer.at("pipeline").dump(), name));
+  Json& rows = answer.at("pipeline").at("passes");
   const auto lines = answer.at("places").get<std::vector<int>>();
-  if (lines.size() != pipeline.passes.size())
+  if (lines.size() != rows.size())
     return error(
         ErrorKind::Pipeline,
         "{}: the script changed what the engine itself uses and came back with {} rows and {} "
         "places; leave the built-in prototypes alone",
-        name, pipeline.passes.size(), lines.size());
+        name, rows.size(), lines.size());
   for (std::size_t i = 0; i < lines.size(); ++i)
-    pipeline.passes[i].place = fmt::format("{}:{}", name, lines[i]);
+    rows.at(i)["place"] = fmt::format("{}:{}", name, lines[i]);
+  LUCERNA_TRY(pipeline, graph::pipelineFromJson(answer["pipeline"].dump(), name));
   if (pipeline.name.empty()) pipeline.name = std::filesystem::path(name).stem().string();
   return pipeline;
 }
@@ -83,14 +83,14 @@ Result<graph::Pipeline> runPipelineSource(const std::string& source, const std::
   if (child.end != ChildOutput::End::Exited || child.status != 0)
     return error(ErrorKind::Pipeline, "{}: the script {}; {}", name, describeEnd(child, kLimits),
                  remedyFor(child.end));
-  const Json answer = Json::parse(
-      reinterpret_cast<const char*>(child.out.data()),
-      reinterpret_cast<const char*>(child.out.data() + child.out.size()), nullptr, false);
+  Json answer = Json::parse(reinterpret_cast<const char*>(child.out.data()),
+                            reinterpret_cast<const char*>(child.out.data() + child.out.size()),
+                            nullptr, false);
   // The script shares its process with the code that answers, so the answer is not trusted.
   if (answer.is_discarded() || !answer.is_object())
     return error(ErrorKind::Pipeline, "{}: the script's process gave no readable answer", name);
   try {
-    return fromAnswer(answer, name, input);
+    return fromAnswer(std::move(answer), name, input);
   } catch (const Json::exception& e) {
     return error(ErrorKind::Pipeline, "{}: the script's process gave a damaged answer ({})", name,
                  e.what());

@@ -140,8 +140,11 @@ class CliTest(unittest.TestCase):
         self.assertNotIn("terminate", run.stderr)
         self.assert_fails(5, "s.js:2: SyntaxError",
                           arguments=["pipeline", "print", self.write("s.js", "pass('Cull'\n;")])
-        self.assert_fails(5, "p.json:1", "did you mean 'type'", arguments=["pipeline", "check", self.write(
-            "p.json", '{"lucerna": "pipeline/1", "passes": [{"typ": "Cull"}]}')])
+        self.assert_fails(5, "p.json:1: /passes/0/typ", "did you mean 'type'", "p.json:1, pass 'GBufer'", "did you mean 'GBuffer'",
+                          arguments=["pipeline", "check", self.write("p.json", '{"lucerna": "pipeline/1", "passes": ['
+                                                                    '{"typ": "Cull"}, {"type": "GBufer"}]}')])
+        self.assert_fails(5, "p.json:1:", "the number 1e999", arguments=["pipeline", "check", self.write(
+            "p.json", '{"lucerna": "pipeline/1", "passes": [{"type": "Cull", "params": {"x": 1e999}}]}')])
 
     def test_a_script_without_end_is_stopped(self):
         start = time.monotonic()
@@ -161,6 +164,17 @@ class CliTest(unittest.TestCase):
         self.assertEqual(run.returncode, 5)
         faults = json.loads(run.stdout)["faults"]
         self.assertIn("UnsupportedFormat", {fault["kind"] for fault in faults})
+
+    def test_what_doctor_prints_is_what_caps_reads(self):
+        run = self.lucerna("doctor", "--json")
+        self.assert_ok(run)
+        caps = self.write("driver.json", run.stdout)
+        self.assert_ok(self.lucerna("pipeline", "check", "deferred", "--caps", caps))
+        only = self.write("gl.json", json.dumps(json.loads(run.stdout)["gl"]))
+        self.assert_ok(self.lucerna("pipeline", "check", "deferred", "--caps", only))
+        self.assert_fails(3, "caps.json:1: /maxTextures", "did you mean 'maxTextureSide'",
+                          arguments=["pipeline", "check", "deferred", "--caps",
+                                     self.write("caps.json", '{"features": [], "renderable": [], "maxTextures": 1}')])
 
     def test_without_a_driver(self):
         self.assert_fails(4, "OpenGL", "apt-get install", arguments=["doctor"],

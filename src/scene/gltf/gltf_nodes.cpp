@@ -221,7 +221,7 @@ void NodeReader::addCamera(const Place& place, std::uint32_t node) {
     camera.aspect = lens.number("aspectRatio", 0.f, 1e-4f, 1e4f);
     camera.near = lens.at("znear").number(1e-9f, kHuge);
     camera.far = std::numeric_limits<float>::infinity();
-    if (lens.has("zfar")) camera.far = lens.at("zfar").number(camera.near, kHuge);
+    if (lens.has("zfar")) camera.far = lens.at("zfar").number();
     requireDepth(lens, camera);
   } else if (type == "orthographic") {
     const Place lens = place.at("orthographic");
@@ -232,7 +232,7 @@ void NodeReader::addCamera(const Place& place, std::uint32_t node) {
     camera.height = 2.f * std::abs(halfHeight);
     camera.aspect = std::abs(halfWidth / halfHeight);
     camera.near = lens.at("znear").number(0.f, kHuge);
-    camera.far = lens.at("zfar").number(camera.near, kHuge);
+    camera.far = lens.at("zfar").number();
     requireDepth(lens, camera);
   } else {
     place.at("type").refuse("\"perspective\" or \"orthographic\"");

@@ -279,6 +279,19 @@ TEST_F(GltfFile, LightsAndCamerasStandAtTheirNodes) {
   EXPECT_EQ(scene->cameras[1].aspect, 2.f);
 }
 
+TEST_F(GltfFile, CamerasSeeAwayFromThemselves) {
+  indexedSquare();
+  root_["nodes"][1] = {{"camera", 0}};
+  root_["scenes"][0]["nodes"] = {0, 1};
+  for (const char* camera :
+       {R"({"type": "perspective", "perspective": {"yfov": 0.7, "znear": 5, "zfar": 1}})",
+        R"({"type": "orthographic",
+            "orthographic": {"xmag": 4, "ymag": 2, "znear": 5, "zfar": 5}})"}) {
+    root_["cameras"][0] = json::parse(camera);
+    expectRefused({"/zfar", "wanted a number above znear, which is 5"});
+  }
+}
+
 TEST_F(GltfFile, AnimationsKeepKeysAndInterpolation) {
   indexedSquare();
   const int times = floats({0, 1}, "SCALAR", 1);
