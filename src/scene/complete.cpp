@@ -22,6 +22,7 @@ void addDefaultMaterial(Scene& scene) {
       grey.name = "default";
       grey.albedo = vec4(vec3(0.8f), 1.f);
       grey.metallic = 0.f;
+      grey.doubleSided = true;  // who states no material states no side either
       scene.materials.push_back(grey);
     }
     object.material = material;

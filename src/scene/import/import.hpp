@@ -14,7 +14,9 @@ namespace lucerna::scene {
 // caller.
 Result<Scene> importScene(const std::filesystem::path& path);
 
-// What the child may use for a file of that size: 10 s and 1 GiB, and more in step with the size.
+// What the child may use for a file of that size: 5 s, 384 MiB and an answer of 128 MiB, so that a
+// small malformed file is done with in 10 s and 1 GiB of both processes; and more in step with the
+// size, for honest large files.
 ChildLimits importLimits(std::uint64_t fileBytes);
 
 }  // namespace lucerna::scene

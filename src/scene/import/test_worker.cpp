@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "scene/import/import_worker.hpp"
 
@@ -17,6 +18,10 @@ int main(int argc, char** argv) {
     std::raise(SIGSEGV);
   }
   if (says("worker_hangs")) std::this_thread::sleep_for(std::chrono::hours(1));
+  if (says("worker_hungers")) {
+    std::vector<std::string> eaten;
+    for (;;) eaten.emplace_back(8 << 20, 'x');
+  }
   if (says("worker_lies")) {
     std::fputs("this is no scene at all, but it is long enough to look like one", stdout);
     return 0;
