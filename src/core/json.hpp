@@ -46,7 +46,7 @@ struct ParsedJson {
 };
 
 inline constexpr int kMaxJsonDepth = 64;  // of nested lists and objects: what walks them recurses
-inline constexpr std::size_t kMaxJsonValues = 4'000'000;  // some 400 MB once parsed
+inline constexpr std::size_t kMaxJsonValues = 1'000'000;  // some 100 MB once parsed
 
 // Comments (// and /* */) are skipped. Whatever is no JSON, or has more values or levels than the
 // limits above, is an error of the given kind with "file:line:column: ...".

@@ -76,7 +76,7 @@ TEST(Json, DepthAndSizeAreLimited) {
   EXPECT_TRUE(parseJson(deepest + std::string(kMaxJsonDepth, ']'), "a", ErrorKind::Input));
   std::string many = "[0";
   for (std::size_t i = 0; i < kMaxJsonValues; ++i) many += ",0";
-  EXPECT_THAT(faultOf(many + "]"), HasSubstr("found more than 4000000 values"));
+  EXPECT_THAT(faultOf(many + "]"), HasSubstr("found more than 1000000 values"));
 }
 
 // What a reader of {"size", "kind", "inner"} says.
@@ -122,10 +122,10 @@ TEST(JsonValue, AKeyThatStandsTwiceIsAFault) {
 
 TEST(JsonValue, LongValuesAndManyFaultsAreCutShort) {
   const std::string faults =
-      faultsOf("{\"names\": [[" + std::string(100'000, ' ') + "\"" + std::string(100'000, 'x') +
+      faultsOf("{\"names\": [[" + std::string(100'000, ' ') + "\"" + std::string(100'000, 'a') +
                "\"], " + "1,1,1,1,1,1,1,1,1,1]}");
   EXPECT_LT(faults.size(), 1000u);
-  EXPECT_THAT(faults, HasSubstr("found [\"xxx"));
+  EXPECT_THAT(faults, HasSubstr("found [\"aaa"));
   std::string many = "{\"names\": [0";
   for (int i = 1; i < 250; ++i) many += ",\n0";
   EXPECT_THAT(faultsOf(many + "]}"),
