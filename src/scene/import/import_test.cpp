@@ -91,6 +91,111 @@ TEST_F(Import, TexturesWithoutADiffuseColourAreNotDarkened) {
 }
 
 // One of the two quads of a TORCS tree would be missing from every side.
+// One point light in a document of one triangle; `technique` is its <technique_common>.
+std::string colladaWith(const std::string& technique) {
+  return R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+ <asset><unit name="meter" meter="1"/><up_axis>Y_UP</up_axis></asset>
+ <library_lights><light id="lamp" name="lamp"><technique_common>)" +
+         technique + R"(</technique_common></light></library_lights>
+ <library_geometries><geometry id="g"><mesh>
+  <source id="p"><float_array id="a" count="9">0 0 0 1 0 0 0 1 0</float_array><technique_common>
+   <accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+    <param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+  <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+  <triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+ </mesh></geometry></library_geometries>
+ <library_visual_scenes><visual_scene id="s">
+  <node id="n"><instance_geometry url="#g"/></node>
+  <node id="l"><translate>1 2 3</translate><instance_light url="#lamp"/></node>
+ </visual_scene></library_visual_scenes>
+ <scene><instance_visual_scene url="#s"/></scene>
+</COLLADA>)";
+}
+
+// docs/user/scene-files.md: strength 1 is pi candela; a colour above 1 is strength.
+TEST_F(Import, StrengthsOfColladaLightsAreRelative) {
+  Result<Scene> scene =
+      importScene(write("lamp.dae", colladaWith("<point><color>0.5 1 0.25</color></point>")));
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->lights.size(), 1u);
+  EXPECT_EQ(scene->lights[0].kind, LightKind::Point);
+  EXPECT_EQ(scene->lights[0].color, vec3(0.5f, 1.f, 0.25f));
+  EXPECT_FLOAT_EQ(scene->lights[0].intensity, kPi);
+  EXPECT_EQ(scene->lights[0].attenuation, vec3(1.f, 0.f, 0.f));
+
+  scene = importScene(
+      write("lamp.dae",
+            colladaWith("<point><color>2 4 1</color><constant_attenuation>0</constant_attenuation>"
+                        "<quadratic_attenuation>0.5</quadratic_attenuation></point>")));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->lights[0].color, vec3(0.5f, 1.f, 0.25f));
+  EXPECT_FLOAT_EQ(scene->lights[0].intensity, 4.f * kPi);
+  EXPECT_EQ(scene->lights[0].attenuation, vec3(0.f, 0.f, 0.5f));
+  updateTransforms(*scene);
+  EXPECT_EQ(placeLights(*scene)[0].positionW, vec3(1, 2, 3));
+}
+
+TEST_F(Import, StrengthsOfFbxLightsArePercents) {
+  const auto fbx = [](const char* decay) {
+    return std::string(R"(; FBX 7.3.0 project file
+FBXHeaderExtension:  {
+	FBXHeaderVersion: 1003
+	FBXVersion: 7300
+}
+GlobalSettings:  {
+	Version: 1000
+	Properties70:  {
+		P: "UpAxis", "int", "Integer", "",1
+		P: "UnitScaleFactor", "double", "Number", "",100
+	}
+}
+Objects:  {
+	Geometry: 1, "Geometry::g", "Mesh" {
+		Vertices: *9 {
+			a: 0,0,0,1,0,0,0,1,0
+		}
+		PolygonVertexIndex: *3 {
+			a: 0,1,-3
+		}
+	}
+	Model: 2, "Model::m", "Mesh" {
+		Version: 232
+	}
+	NodeAttribute: 3, "NodeAttribute::lamp", "Light" {
+		Properties70:  {
+			P: "Color", "Color", "", "A",1,0.5,0.25
+			P: "Intensity", "Number", "", "A",300
+			P: "LightType", "enum", "", "",0
+			P: "DecayType", "enum", "", "",)") +
+           decay + R"(
+			P: "DecayStart", "Number", "", "A",4
+		}
+		TypeFlags: "Light"
+	}
+	Model: 4, "Model::lamp", "Light" {
+		Version: 232
+	}
+}
+Connections:  {
+	C: "OO",2,0
+	C: "OO",1,2
+	C: "OO",4,0
+	C: "OO",3,4
+}
+)";
+  };
+  for (const auto& [decay, attenuation] :
+       {std::pair{"1", vec3(0, 0.5f, 0)}, std::pair{"2", vec3(0, 0, 0.125f)}}) {
+    const Result<Scene> scene = importScene(write("lamp.fbx", fbx(decay)));
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->lights.size(), 1u);
+    EXPECT_EQ(scene->lights[0].color, vec3(1.f, 0.5f, 0.25f));
+    EXPECT_FLOAT_EQ(scene->lights[0].intensity, 3.f * kPi);
+    EXPECT_EQ(scene->lights[0].attenuation, attenuation) << "decay " << decay;
+  }
+}
+
 TEST_F(Import, SurfacesOfAc3dShowBothSides) {
   const Result<Scene> scene = importScene(write("q.ac", R"(AC3Db
 MATERIAL "" rgb 1 1 1 amb 1 1 1 emis 0 0 0 spec 0 0 0 shi 10 trans 0
