@@ -21,6 +21,9 @@ struct Options {
 Json document(const app::Session& session, const app::FrameWriter& writer, double seconds) {
   Json files = Json::array();
   for (const auto& path : writer.written()) files.push_back(path.string());
+  std::vector<std::string> warnings = session.scene.warnings;
+  const auto& ofPipeline = session.executor->warnings();
+  warnings.insert(warnings.end(), ofPipeline.begin(), ofPipeline.end());
   return {{"files", std::move(files)},
           {"scene", session.scene.name},
           {"pipeline", session.pipeline.name},
@@ -30,7 +33,7 @@ Json document(const app::Session& session, const app::FrameWriter& writer, doubl
           {"renderer", session.device->description()},
           {"triangles", session.scene.triangleCount()},
           {"gl_messages", session.glMessages},
-          {"warnings", session.scene.warnings}};
+          {"warnings", std::move(warnings)}};
 }
 
 Status renderFrames(app::Session& session, app::FrameWriter& writer, app::ProfileLog* profile) {

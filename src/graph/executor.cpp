@@ -108,7 +108,7 @@ struct Executor::Impl {
   std::size_t currentView = 0;
   bool profiling = false;
   FrameProfile profile;
-  std::string lastWarnings;
+  std::vector<std::string> warnings;  // of the pipeline
 };
 
 Status Executor::Impl::setPipeline(const Pipeline& next, uvec2 size,
@@ -119,10 +119,11 @@ Status Executor::Impl::setPipeline(const Pipeline& next, uvec2 size,
   steps.clear();
   Validation validation = validate(next, registry, device.capabilities(), kept);
   if (!validation.ok()) return Error{ErrorKind::Pipeline, validation.text()};
-  if (std::string warnings = validation.text(); warnings != lastWarnings) {
-    for (const Fault& fault : validation.faults) log::warning("{}", fault.text());
-    lastWarnings = std::move(warnings);
-  }
+  std::vector<std::string> found;
+  for (const Fault& fault : validation.faults) found.push_back(fault.text());
+  if (found != warnings)
+    for (const std::string& warning : found) log::warning("{}", warning);
+  warnings = std::move(found);
   pipeline = next;
   keptNames = kept;
   outputSize = size;
@@ -435,6 +436,9 @@ const FrameProfile& Executor::profile() const {
 }
 const Plan& Executor::plan() const {
   return impl_->plan;
+}
+const std::vector<std::string>& Executor::warnings() const {
+  return impl_->warnings;
 }
 const Schedule& Executor::schedule() const {
   return impl_->schedule;

@@ -88,6 +88,7 @@ class Executor {
 
   // Of the last success; empty after a failure.
   const Plan& plan() const;
+  const std::vector<std::string>& warnings() const;  // of the pipeline; logged when they change
   const Schedule& schedule() const;
 
  private:

@@ -192,6 +192,18 @@ class CliTest(unittest.TestCase):
         self.assertEqual(png_size(self.folder / "f-01.png"), (64, 36))
         self.assertEqual(len(self.read_profile("p.csv")), 2)
 
+    def test_warnings_of_the_pipeline_are_in_the_document(self):
+        run = self.lucerna("render", ATRIUM, *SMALL, "--set", "Background.enabled=false",
+                           "--set", "Transparency.reads.color=Lighting.color", "-o", "a.png", "--json")
+        self.assert_ok(run)
+        self.assertEqual(json.loads(run.stdout)["warnings"], [])
+        (self.folder / "idle.json").write_text(json.dumps({"lucerna": "pipeline/1", "passes": [
+            {"type": t} for t in ("Cull", "GBuffer", "Forward", "ToneMap")]}))
+        run = self.lucerna("render", ATRIUM, *SMALL, "--pipeline", "idle.json", "-o", "a.png", "--json")
+        self.assert_ok(run)
+        warnings = json.loads(run.stdout)["warnings"]
+        self.assertTrue(any("GBuffer" in warning for warning in warnings), warnings)
+
     def check_costs(self, frames):
         """frames: of each its passes and then itself, as rows of numbers."""
         for *passes, frame in frames:
