@@ -107,7 +107,9 @@ void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::u
   auto& known = gpuScene.changes.movedObjects;
   known.insert(known.end(), moved.begin(), moved.end());
   uploadObjects(device, gpuScene);
-  buildBvh(gpuScene);
+  std::vector<Aabb> boxes;
+  for (const std::uint32_t object : moved) boxes.push_back(gpuScene.scene->objects[object].boundsW);
+  gpuScene.bvh.refit(moved, boxes);
 }
 
 }  // namespace lucerna::render

@@ -32,7 +32,7 @@ struct GpuScene {
   static constexpr const char* kPortName = "Scene";
   const scene::Scene* scene = nullptr;
   SceneChanges changes;
-  scene::Bvh bvh;                 // over the objects' boxes; rebuilt when objects move
+  scene::Bvh bvh;                 // over the objects' boxes; refitted when objects move
   std::vector<MeshRange> meshes;  // as Scene::meshes
   gpu::Buffer vertices, indices, objectIndices;
   gpu::VertexInput input;

@@ -18,6 +18,11 @@ constexpr std::uint32_t kLeafSize = 4;
 // Beyond this depth the range is halved, so that no input makes the tree deeper than a stack.
 constexpr std::uint32_t kMaxSahDepth = 60;
 constexpr std::size_t kMaxDepth = kMaxSahDepth + 33;
+constexpr std::uint32_t kNoSlot = ~0u;
+// Refitting is given up when the summed areas, and with them what a query visits, have grown so.
+constexpr double kMaxAreaGrowth = 2;
+// From this share of the items on, fitting every node once is cheaper than walking up from each.
+constexpr std::size_t kSweepShare = 8;
 
 float halfArea(const Aabb& box) {
   const vec3 e = box.extent();
@@ -223,6 +228,72 @@ void Bvh::build(std::span<const Aabb> boxes) {
     items_.push_back(item);
     boxes_.push_back(boxes[item]);
   }
+  slots_.assign(boxes.size(), kNoSlot);
+  for (std::uint32_t slot = 0; slot < items_.size(); ++slot) slots_[items_[slot]] = slot;
+  linkUpwards();
+}
+
+void Bvh::linkUpwards() {
+  parents_.assign(nodes_.size(), 0);
+  leaves_.assign(boundedCount_, 0);
+  area_ = 0;
+  for (std::uint32_t i = 0; i < nodes_.size(); ++i) {
+    const Node& node = nodes_[i];
+    area_ += halfArea(node.box);
+    if (node.count == 0)
+      parents_[node.first] = parents_[node.first + 1] = i;
+    else
+      std::fill_n(leaves_.begin() + node.first, node.count, i);
+  }
+  builtArea_ = area_;
+}
+
+bool Bvh::fit(std::uint32_t index) {
+  Node& node = nodes_[index];
+  Aabb box;
+  if (node.count == 0) {
+    box = nodes_[node.first].box;
+    box.grow(nodes_[node.first + 1].box);
+  } else {
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) box.grow(boxes_[i]);
+  }
+  if (box.min == node.box.min && box.max == node.box.max) return false;
+  area_ += static_cast<double>(halfArea(box)) - halfArea(node.box);
+  node.box = box;
+  return true;
+}
+
+bool Bvh::refit(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) {
+  CHECK(items.size() == boxes.size(), "{} items, {} boxes", items.size(), boxes.size());
+  const auto inTree = [&](std::uint32_t item) {
+    CHECK(item < slots_.size(), "item {} of {}", item, slots_.size());
+    return slots_[item] < boundedCount_;
+  };
+  const bool fits =
+      std::ranges::all_of(items, inTree) &&
+      std::ranges::all_of(boxes, [](const Aabb& box) { return !box.empty() && isBounded(box); });
+  if (!fits) {
+    rebuild(items, boxes);
+    return false;
+  }
+  for (std::size_t i = 0; i < items.size(); ++i) boxes_[slots_[items[i]]] = boxes[i];
+  if (items.size() > boundedCount_ / kSweepShare) {
+    for (auto node = static_cast<std::uint32_t>(nodes_.size()); node-- > 0;) fit(node);
+  } else {
+    for (const std::uint32_t item : items)
+      for (std::uint32_t node = leaves_[slots_[item]]; fit(node) && node != 0;)
+        node = parents_[node];
+  }
+  if (area_ <= kMaxAreaGrowth * builtArea_) return true;
+  rebuild(items, boxes);
+  return false;
+}
+
+void Bvh::rebuild(std::span<const std::uint32_t> items, std::span<const Aabb> boxes) {
+  std::vector<Aabb> all(slots_.size());
+  for (std::size_t slot = 0; slot < items_.size(); ++slot) all[items_[slot]] = boxes_[slot];
+  for (std::size_t i = 0; i < items.size(); ++i) all[items[i]] = boxes[i];
+  build(all);
 }
 
 void Bvh::query(const Frustum& frustum, std::vector<std::uint32_t>& items) const {

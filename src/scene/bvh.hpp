@@ -15,6 +15,12 @@ class Bvh {
   // out.
   void build(std::span<const Aabb> boxes);
 
+  // boxes[i] is the new box of items[i]; an item named twice takes the last. The tree keeps its
+  // shape and only the boxes above these items change: O(items * depth), at most O(all). Where that
+  // would leave a poor tree (its surface-area cost has doubled since it was built), or where a box
+  // becomes or was empty or unbounded, the tree is built anew. True if it was refitted.
+  bool refit(std::span<const std::uint32_t> items, std::span<const Aabb> boxes);
+
   // Appends the items whose box intersects(frustum, box), exactly those, in no particular but
   // deterministic order.
   void query(const Frustum& frustum, std::vector<std::uint32_t>& items) const;
@@ -39,6 +45,16 @@ class Bvh {
   std::vector<std::uint32_t> items_;
   std::vector<Aabb> boxes_;  // in the order of items_
   std::uint32_t boundedCount_ = 0;
+
+  // Adapts the box of a node to what is below it; false if it was right already.
+  bool fit(std::uint32_t node);
+  void rebuild(std::span<const std::uint32_t> items, std::span<const Aabb> boxes);
+  void linkUpwards();
+
+  std::vector<std::uint32_t> parents_;  // of each node; the root's is itself
+  std::vector<std::uint32_t> leaves_;   // of each bounded slot of items_
+  std::vector<std::uint32_t> slots_;    // of each item, its place in items_; kNoSlot: left out
+  double area_ = 0, builtArea_ = 0;     // m^2, sum of the nodes' half areas: now, when built
 };
 
 }  // namespace lucerna::scene

@@ -163,5 +163,64 @@ TEST(Bvh, StaysWithinItsStackOnLopsidedInput) {
   }
 }
 
+// A crowd that wanders, round after round; now and then nearly all of it.
+TEST(Bvh, FindsExactlyTheSameAfterRefitting) {
+  std::vector<Aabb> boxes = randomBoxes(20'000, 11, 500, 8);
+  Bvh bvh;
+  bvh.build(boxes);
+  Random random(12);
+  int refitted = 0;
+  for (int round = 0; round < 40; ++round) {
+    const std::size_t count = round % 8 == 7 ? 15'000 : 200;
+    std::vector<std::uint32_t> moved;
+    std::vector<Aabb> to;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto item = static_cast<std::uint32_t>(random.below(20'000));
+      const vec3 step = randomPoint(random, 5);
+      boxes[item] = {boxes[item].min + step, boxes[item].max + step};
+      moved.push_back(item);
+      to.push_back(boxes[item]);
+    }
+    refitted += bvh.refit(moved, to);
+    for (int view = 0; view < 10; ++view) {
+      const Frustum frustum = randomFrustum(random, 500);
+      ASSERT_EQ(sortedQuery(bvh, frustum), bruteForce(frustum, boxes)) << "round " << round;
+    }
+  }
+  EXPECT_EQ(refitted, 40) << "small steps must not build the tree anew";
+}
+
+TEST(Bvh, IsBuiltAnewWhereRefittingWouldLeaveAPoorTree) {
+  std::vector<Aabb> boxes = randomBoxes(5000, 13, 500, 2);
+  Bvh bvh;
+  bvh.build(boxes);
+  std::vector<std::uint32_t> all(boxes.size());
+  std::iota(all.begin(), all.end(), 0u);
+  boxes = randomBoxes(5000, 14, 500, 2);  // everything elsewhere
+  EXPECT_FALSE(bvh.refit(all, boxes));
+  Bvh fresh;
+  fresh.build(boxes);
+  EXPECT_TRUE(std::ranges::equal(bvh.items(), fresh.items()));
+}
+
+TEST(Bvh, RefitsAcrossEmptyAndUnboundedBoxes) {
+  std::vector<Aabb> boxes = randomBoxes(50, 15, 5, 1);
+  const Aabb usual = boxes[3];
+  Bvh bvh;
+  bvh.build(boxes);
+  Random random(16);
+  const Aabb everywhere{vec3(-std::numeric_limits<float>::infinity()),
+                        vec3(std::numeric_limits<float>::infinity())};
+  for (const Aabb& box : {Aabb{}, usual, everywhere, Aabb{}, everywhere, usual}) {
+    boxes[3] = box;
+    const std::uint32_t item = 3;
+    EXPECT_FALSE(bvh.refit({&item, 1}, {&box, 1}));
+    for (int view = 0; view < 20; ++view) {
+      const Frustum frustum = randomFrustum(random, 5);
+      EXPECT_EQ(sortedQuery(bvh, frustum), bruteForce(frustum, boxes));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lucerna::scene
