@@ -5,14 +5,14 @@
 #include "app/session.hpp"
 #include "command_line.hpp"
 #include "core/text.hpp"
+#include "graph/value_check.hpp"
+#include "render_flags.hpp"
 
 namespace lucerna::cli {
 namespace {
 
 constexpr const char* kDirections[] = {"in", "out", "in and out"};
-constexpr const char* kParamTypes[] = {"bool", "int", "float", "choice", "text", "color", "vector"};
 constexpr const char* kFrequencies[] = {"per scene", "per group of views", "per view"};
-constexpr const char* kRebuilds[] = {"nothing", "shaders", "ports"};
 
 Json valueJson(const graph::Value& value) {
   return std::visit([](const auto& v) { return Json(v); }, value);
@@ -20,13 +20,13 @@ Json valueJson(const graph::Value& value) {
 
 Json paramJson(const graph::ParamDescription& param) {
   Json json{{"name", param.name},
-            {"type", kParamTypes[static_cast<int>(param.type)]},
+            {"type", graph::nameOf(param.type)},
             {"default", valueJson(param.defaultValue)}};
   if (param.min) json["min"] = *param.min;
   if (param.max) json["max"] = *param.max;
   if (!param.unit.empty()) json["unit"] = param.unit;
   if (!param.choices.empty()) json["choices"] = param.choices;
-  json["rebuilds"] = kRebuilds[static_cast<int>(param.rebuild)];
+  json["rebuilds"] = graph::nameOf(param.rebuild);
   json["help"] = param.help;
   return json;
 }
@@ -65,9 +65,8 @@ Json passJson(const graph::PassDescription& pass) {
 }
 
 std::string paramText(const graph::ParamDescription& param) {
-  std::string text =
-      fmt::format("  {:20} {} = {}", param.name, kParamTypes[static_cast<int>(param.type)],
-                  graph::toText(param.defaultValue));
+  std::string text = fmt::format("  {:20} {} = {}", param.name, graph::nameOf(param.type),
+                                 graph::toText(param.defaultValue));
   if (param.min && param.max) text += fmt::format(", {:g} to {:g}", *param.min, *param.max);
   if (!param.unit.empty()) text += " " + param.unit;
   if (!param.choices.empty()) text += ", one of " + join(param.choices);
@@ -108,18 +107,42 @@ Result<int> list(bool json) {
   return 0;
 }
 
-Result<int> show(const std::string& type, bool json) {
+struct ShowOptions {
+  std::string type;
+  std::vector<std::string> sets;
+};
+
+// The description of a row with these settings.
+Result<graph::PassDescription> describe(const graph::Registry& registry,
+                                        const ShowOptions& options) {
+  graph::Pipeline pipeline;
+  graph::PassRow& row = pipeline.passes.emplace_back();
+  row.name = row.type = options.type;
+  for (const std::string& set : options.sets)
+    LUCERNA_TRY_VOID(graph::applySetting(pipeline, registry, options.type + "." + set));
+  graph::PassDescription pass =
+      graph::describeChecked(*registry.find(options.type), pipeline.passes[0].params);
+  std::vector<std::string> faults;
+  for (const graph::DescriptionFault& fault : pass.faults)
+    faults.push_back(fmt::format("parameter '{}': found {}; wanted {}; {}", fault.param,
+                                 fault.found, fault.wanted, fault.remedy));
+  if (!faults.empty()) return error(ErrorKind::Pipeline, "{}", join(faults, "\n"));
+  return pass;
+}
+
+Result<int> show(const ShowOptions& options, bool json) {
+  const std::string& type = options.type;
   const graph::Registry registry = app::makeRegistry();
-  const graph::PassType* pass = registry.find(type);
-  if (!pass) {
+  if (!registry.find(type)) {
     const std::vector<std::string> names = registry.typeNames();
     return error(ErrorKind::Usage, "there is no pass '{}'{}; there are {}", type,
                  didYouMean(type, names), join(names));
   }
+  LUCERNA_TRY(pass, describe(registry, options));
   if (json)
-    printJson(passJson(pass->describe({})));
+    printJson(passJson(pass));
   else
-    printText(passText(pass->describe({})));
+    printText(passText(pass));
   return 0;
 }
 
@@ -129,10 +152,12 @@ void addPass(CommandLine& line) {
   CLI::App* group = line.app.add_subcommand("pass", "the passes that pipelines are made of");
   addCommand(line, *group, "list", "every pass and what it does",
              [&line] { return list(line.talk.json); });
-  auto type = std::make_shared<std::string>();
+  auto options = std::make_shared<ShowOptions>();
   CLI::App* command = addCommand(line, *group, "show", "ports and parameters of a pass",
-                                 [&line, type] { return show(*type, line.talk.json); });
-  command->add_option("NAME", *type, "type of the pass")->required();
+                                 [&line, options] { return show(*options, line.talk.json); });
+  command->add_option("NAME", options->type, "type of the pass")->required();
+  addRepeatable(*command, "--set", options->sets,
+                "param=value: for these values, on which ports may depend; repeatable");
 }
 
 }  // namespace lucerna::cli

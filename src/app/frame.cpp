@@ -32,23 +32,41 @@ void applySceneChanges(Session& s) {
                      size);
 }
 
-// What does not compile or load any more is reported, and what was there goes on.
-void reloadChangedFiles(Session& s) {
-  if (!s.watch) return;
-  if (const int count = s.device->reloadChangedShaders(); count > 0)
-    log::info("reloaded {} shader program{}", count, count == 1 ? "" : "s");
-  for (const Error& fault : s.device->takeErrors()) log::error("{}", fault.message);
+bool pipelineFileChanged(Session& s) {
   std::error_code noFile;
   const auto time = std::filesystem::last_write_time(s.settings.pipeline, noFile);
-  if (noFile || time == s.pipelineTime) return;
-  s.pipelineTime = time;
-  auto pipeline = readPipeline(s.registry, s.settings.pipeline, s.settings.sets, s.settings.seed);
-  if (!pipeline) {
-    log::error("{}", pipeline.error().message);
-    return;
+  return !noFile && time != std::exchange(s.pipelineTime, time);
+}
+
+// Descriptions may follow from shaders: before those are compiled anew, the pipeline must fit them.
+Status reload(Session& s) {
+  graph::Pipeline pipeline = s.pipeline;
+  if (s.pipelineChanged) {
+    LUCERNA_TRY(read,
+                readPipeline(s.registry, s.settings.pipeline, s.settings.sets, s.settings.seed));
+    pipeline = std::move(read);
   }
-  s.lastGood = std::exchange(s.pipeline, std::move(*pipeline));
+  const auto validation = graph::validate(pipeline, s.registry, s.device->capabilities());
+  if (!validation.ok()) return error(ErrorKind::Pipeline, "{}", validation.text());
+  LUCERNA_TRY(count, s.device->reloadShaders(s.changedShaders));
+  s.changedShaders.clear();
+  if (count > 0) log::info("reloaded {} shader program{}", count, count == 1 ? "" : "s");
+  if (std::exchange(s.pipelineChanged, false)) s.lastGood = s.pipeline;
+  s.pipeline = std::move(pipeline);
   s.rebuild = true;
+  return {};
+}
+
+// What does not load, validate or compile any more is reported, and what was there goes on.
+void reloadChangedFiles(Session& s) {
+  if (!s.watch) return;
+  const auto shaders = s.device->shaderSources().changedFiles();
+  s.changedShaders.insert(s.changedShaders.end(), shaders.begin(), shaders.end());
+  const bool pipelineChanged = pipelineFileChanged(s);
+  s.pipelineChanged = s.pipelineChanged || pipelineChanged;
+  if (!pipelineChanged && shaders.empty()) return;
+  if (const Status status = reload(s); !status) log::error("{}", status.error().message);
+  for (const Error& fault : s.device->takeErrors()) log::error("{}", fault.message);
 }
 
 Status rebuildSchedule(Session& s) {
@@ -92,9 +110,10 @@ Status draw(Session& s, const FrameSink& sink) {
   Status drawn = attempt();
   if (!drawn && s.lastGood) {
     log::error("{}", drawn.error().message);
-    log::warning("{}: the pipeline before goes on; save the file again when it is corrected",
+    log::warning("{}: the pipeline before goes on until it or one of its shaders is corrected",
                  s.settings.pipeline);
     s.pipeline = *std::exchange(s.lastGood, std::nullopt);
+    s.pipelineChanged = true;
     s.rebuild = true;
     drawn = attempt();
   }

@@ -18,9 +18,8 @@ constexpr std::string_view kScriptPrefix = "script.";
 Status openDevice(Session& session) {
   LUCERNA_TRY(context, gpu::Context::create(session.settings.gl));
   session.context = std::move(context);
-  LUCERNA_TRY(device, gpu::Device::create(*session.context));
+  LUCERNA_TRY(device, gpu::Device::create(*session.context, session.registry.shaders()));
   session.device = std::move(device);
-  passes::registerShaders(session.device->shaderSources());
   if (!session.settings.shaderFolder.empty())
     session.device->shaderSources().setRoot(session.settings.shaderFolder);
   log::debug("{} ({})", session.device->description(), session.context->platform());
@@ -72,6 +71,7 @@ Result<graph::Pipeline> readPipeline(const graph::Registry& registry, const std:
         setting.substr(equals + 1);
   }
   LUCERNA_TRY(pipeline, script::loadPipeline(nameOrFile, input));
+  graph::resolveFiles(pipeline, registry);
   for (const std::string& setting : rowSettings)
     LUCERNA_TRY_VOID(graph::applySetting(pipeline, registry, setting));
   return pipeline;

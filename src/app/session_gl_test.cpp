@@ -281,6 +281,63 @@ TEST_F(SessionTest, AShaderThatNoLongerCompilesLeavesTheLast) {
   EXPECT_EQ(drawn, 2);
 }
 
+// A Fullscreen row's description follows from its shader: its ports and parameters change with the
+// file, and a shader that is broken or does not fit the row leaves the last one.
+TEST_F(SessionTest, AChangedShaderOfAFullscreenRowIsReadAgainAndAFaultyOneLeavesTheLast) {
+  int seconds = 0;
+  const auto write = [&](const char* name, const std::string& text) {
+    ASSERT_TRUE(writeText(folder_ / name, text));
+    std::filesystem::last_write_time(folder_ / name, std::filesystem::file_time_type::clock::now() +
+                                                         std::chrono::seconds(seconds++));
+  };
+  const std::string output = "layout(location = 0) out vec4 made;\n";
+  write("own.glsl", "const float blue = 0.0;\n");
+  write("a.frag",
+        output + "uniform float red = 0.2;\nvoid main() { made = vec4(red, 0, 0, 1); }\n");
+  write("mine.js", "pass('Fullscreen', {shader: 'a.frag', format: 'Rgba8Unorm', red: 0.4});\n");
+  settings_.pipeline = folder_ / "mine.js";
+  auto opened = openSession(settings_);
+  ASSERT_TRUE(opened) << opened.error().message;
+  Session& session = **opened;
+  session.watch = true;
+  std::array<int, 3> seen{};
+  const auto draw = [&] {
+    const Status status = runFrame(session, nullptr, [&](Session& s, const gpu::Texture& texture) {
+      const Image picture = s.device->download(texture);
+      std::copy_n(picture.pixel<std::uint8_t>(4, 4), 3, seen.begin());
+      return Status();
+    });
+    EXPECT_TRUE(status) << status.error().message;
+    return seen;
+  };
+  using Rgb = std::array<int, 3>;
+  EXPECT_EQ(draw(), (Rgb{102, 0, 0}));
+
+  // Another uniform, a port and an include.
+  write("a.frag", output +
+                      "#include \"own.glsl\"\nuniform float red;\nuniform float green = 0.6;\n"
+                      "void main() { made = vec4(red, green, blue, 1); }\n");
+  EXPECT_EQ(draw(), (Rgb{102, 153, 0}));
+  EXPECT_NE(session.executor->plan().rows[0].description.param("green"), nullptr);
+  write("own.glsl", "const float blue = 1.0;\n");
+  EXPECT_EQ(draw(), (Rgb{102, 153, 255}));
+
+  // It does not compile; then it lacks what the row sets, which the pipeline mends.
+  write("a.frag", output + "uniform float red;\nvoid main() { made = nonsense; }\n");
+  EXPECT_EQ(draw(), (Rgb{102, 153, 255}));
+  write("a.frag", output + "uniform int level;\nvoid main() { made = vec4(level, 1, 0, 1); }\n");
+  EXPECT_EQ(draw(), (Rgb{102, 153, 255}));
+  write("mine.js", "pass('Fullscreen', {shader: 'a.frag', format: 'Rgba8Unorm', level: 1});\n");
+  EXPECT_EQ(draw(), (Rgb{255, 255, 0}));
+
+  // A pipeline that is valid but names a shader that does not compile.
+  write("b.frag", "void main() { nonsense; }\n");
+  write("mine.js", "pass('Fullscreen', {shader: 'b.frag', format: 'Rgba8Unorm'});\n");
+  EXPECT_EQ(draw(), (Rgb{255, 255, 0}));
+  write("b.frag", output + "void main() { made = vec4(0, 0, 1, 1); }\n");
+  EXPECT_EQ(draw(), (Rgb{0, 0, 255}));
+}
+
 TEST_F(SessionTest, AFaultyPipelineRendersNothing) {
   const std::filesystem::path file = folder_ / "bad.json";
   ASSERT_TRUE(writeText(file, R"({"lucerna": "pipeline/1", "passes": [{"type": "Lightning"}]})"));

@@ -98,7 +98,8 @@ void setFixedState() {
 
 Device::Device() : impl_(std::make_unique<Impl>()) {}
 
-Result<std::unique_ptr<Device>> Device::create(Context& context) {
+Result<std::unique_ptr<Device>> Device::create(Context& context,
+                                               std::shared_ptr<ShaderSources> sources) {
   const int version = epoxy_gl_version();
   if (version < 45)
     return error(ErrorKind::NoGl,
@@ -121,8 +122,9 @@ Result<std::unique_ptr<Device>> Device::create(Context& context) {
   glDebugMessageCallback(onDebugMessage, &impl);
   setFixedState();
   glCreateVertexArrays(1, &impl.emptyInput);
-  impl.sources.add(embeddedShaders_gpu());
-  if (const char* root = std::getenv("LUCERNA_SHADERS")) impl.sources.setRoot(root);
+  impl.sources = sources ? std::move(sources) : std::make_shared<ShaderSources>();
+  impl.sources->add(embeddedShaders_gpu());
+  if (const char* root = std::getenv("LUCERNA_SHADERS")) impl.sources->setRoot(root);
   return device;
 }
 
@@ -152,7 +154,7 @@ std::string Device::description() const {
   return impl_->description;
 }
 ShaderSources& Device::shaderSources() {
-  return impl_->sources;
+  return *impl_->sources;
 }
 const Counters& Device::counters() const {
   return impl_->counters;
@@ -172,6 +174,9 @@ void Device::finish() {
 
 std::vector<Error> Device::takeErrors() {
   return std::exchange(impl_->errors, {});
+}
+void Device::reportError(Error error) {
+  impl_->errors.push_back(std::move(error));
 }
 std::vector<std::string> Device::takeDebugMessages() {
   return std::exchange(impl_->debugMessages, {});

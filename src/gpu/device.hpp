@@ -135,9 +135,11 @@ class Context;
 class Device {
  public:
   // context must stay alive and current. Loads the driver's capabilities, sets reversed depth
-  // (glClipControl) and debug output; the environment's LUCERNA_SHADERS becomes the root of
-  // shaderSources(). Errors (ErrorKind::NoGl) say what is missing.
-  static Result<std::unique_ptr<Device>> create(Context& context);
+  // (glClipControl) and debug output. `sources` (new ones by default) becomes shaderSources(): the
+  // shaders of gpu/ are added, and the environment's LUCERNA_SHADERS becomes its root. Errors
+  // (ErrorKind::NoGl) say what is missing.
+  static Result<std::unique_ptr<Device>> create(Context& context,
+                                                std::shared_ptr<ShaderSources> sources = nullptr);
   // Textures, buffers and vertex inputs must be gone by now; programs become unusable.
   ~Device();
   Device(const Device&) = delete;
@@ -170,13 +172,17 @@ class Device {
   VertexInput createVertexInput(const VertexInputDesc& desc, std::string label);
 
   // Compiles, or returns the cached one. A failure is kept for takeErrors() and the program is
-  // unusable (or stays as it was, on reload); asking for it again reports it again.
+  // unusable; asking for it again reports it again.
   ProgramPtr program(const ProgramDesc& desc);
   ShaderSources& shaderSources();
-  // Recompiles programs whose files changed; returns how many it tried.
-  int reloadChangedShaders();
+  // Recompiles the programs that read one of these files (as ShaderSources::changedFiles() names
+  // them), all or none: if one that worked does not compile any more, all stay as they are, and the
+  // error (ErrorKind::Pipeline) says why. Returns how many there were.
+  Result<int> reloadShaders(std::span<const std::string> changed);
   // Shader faults since the last call, each with file and line (ErrorKind::Pipeline).
   std::vector<Error> takeErrors();
+  // Adds one, for whoever finds that a program that compiled is not the one it can use.
+  void reportError(Error error);
 
   Rendering render(const Targets& targets);
   Computing compute();
@@ -206,7 +212,8 @@ class Device {
 
  private:
   Device();
-  void rebuild(Program& program);
+  Result<std::uint32_t> link(Program& program);
+  void take(Program& program, std::uint32_t linked);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct Program::Reflection {
     std::string name;
     GLuint unit = 0;
     GLint bytes = 0;  // of blocks: the least the buffer must hold
+    GLenum type = 0;  // of samplers and images
   };
   std::map<std::string, Uniform, std::less<>> uniforms;
   std::vector<Slot> samplers, images, uniformBlocks, storageBlocks;
@@ -86,7 +88,7 @@ struct Device::Impl {
   std::string description;
   Counters counters;
   ObjectCounts objects;
-  ShaderSources sources;
+  std::shared_ptr<ShaderSources> sources;
   std::map<ProgramDesc, std::shared_ptr<Program>> programs;
   std::vector<Error> errors;
   std::vector<std::string> debugMessages, groups;

@@ -47,7 +47,7 @@ Result<GLuint> compile(GLenum stage, const ExpandedShader& source, const Program
 }
 
 // A linked program. Adds every file that was read to `files`, also on failure.
-Result<GLuint> build(const ShaderSources& sources, const ProgramDesc& desc,
+Result<GLuint> build(ShaderSources& sources, const ProgramDesc& desc,
                      std::set<std::string>& files) {
   const std::pair<GLenum, const std::string*> stages[] = {{GL_VERTEX_SHADER, &desc.vertex},
                                                           {GL_FRAGMENT_SHADER, &desc.fragment},
@@ -92,6 +92,31 @@ std::string name(GLuint program, GLenum interface, GLuint index) {
   glGetProgramResourceName(program, interface, index, length, nullptr, result.data());
   result.resize(static_cast<std::size_t>(std::max(length - 1, 0)));
   return result;
+}
+
+struct TypeName {
+  GLenum type;
+  const char* name;
+};
+constexpr TypeName kTypeNames[] = {
+    {GL_FLOAT, "float"},
+    {GL_FLOAT_VEC2, "vec2"},
+    {GL_FLOAT_VEC3, "vec3"},
+    {GL_FLOAT_VEC4, "vec4"},
+    {GL_INT, "int"},
+    {GL_BOOL, "bool"},
+    {GL_SAMPLER_2D, "sampler2D"},
+    {GL_SAMPLER_2D_ARRAY, "sampler2DArray"},
+    {GL_SAMPLER_CUBE, "samplerCube"},
+    {GL_SAMPLER_2D_MULTISAMPLE, "sampler2DMS"},
+    {GL_INT_SAMPLER_2D, "isampler2D"},
+    {GL_UNSIGNED_INT_SAMPLER_2D, "usampler2D"},
+};
+
+std::string typeName(GLenum type) {
+  for (const TypeName& known : kTypeNames)
+    if (known.type == type) return known.name;
+  return "other";
 }
 
 enum class Opaque { No, Sampler, Image };
@@ -172,7 +197,7 @@ struct Reflector {
         const GLenum property = GL_BUFFER_DATA_SIZE;
         GLint bytes = 0;
         glGetProgramResourceiv(program, interface, index, 1, &property, 1, nullptr, &bytes);
-        list.push_back({name(program, interface, index), index, bytes});
+        list.push_back({name(program, interface, index), index, bytes, 0});
         if (storage)
           glShaderStorageBlockBinding(program, index, index);
         else
@@ -186,7 +211,7 @@ struct Reflector {
              const Uniform& uniform) {
     for (GLint element = 0; element < uniform.count; ++element) {
       const auto unit = static_cast<GLuint>(list.size());
-      list.push_back({array ? fmt::format("{}[{}]", key, element) : key, unit, 0});
+      list.push_back({array ? fmt::format("{}[{}]", key, element) : key, unit, 0, uniform.type});
       glProgramUniform1i(program, uniform.location + element, static_cast<GLint>(unit));
     }
   }
@@ -198,6 +223,17 @@ Program::~Program() {
   if (id_ == 0) return;
   glDeleteProgram(id_);
   --device_->impl().objects.programs;
+}
+
+std::vector<ProgramInput> Program::inputs() const {
+  std::vector<ProgramInput> inputs;
+  for (const auto& [name, uniform] : reflection_->uniforms)
+    inputs.push_back({name, uniform.count == 1 ? typeName(uniform.type) : "other"});
+  for (const auto* slots : {&reflection_->samplers, &reflection_->images})
+    for (const auto& slot : *slots) inputs.push_back({slot.name, typeName(slot.type)});
+  for (const auto* blocks : {&reflection_->uniformBlocks, &reflection_->storageBlocks})
+    for (const auto& block : *blocks) inputs.push_back({block.name, "block"});
+  return inputs;
 }
 
 const Uniform* Program::find(std::string_view name) const {
@@ -287,25 +323,30 @@ void Program::set(std::string_view name, std::span<const vec4> values) const {
   glProgramUniform4fv(id_, uniform->location, static_cast<GLsizei>(values.size()), &values[0].x);
 }
 
-void Device::rebuild(Program& program) {
-  std::set<std::string> files;
-  Result<std::uint32_t> built = build(impl_->sources, program.desc_, files);
-  program.reflection_->files.assign(files.begin(), files.end());
-  if (!built) {
-    impl_->errors.push_back(built.error());
-    if (!program.usable()) program.reflection_->fault = built.error();
-    return;
-  }
+// A linked program takes the place of what was there.
+void Device::take(Program& program, std::uint32_t linked) {
   if (program.id_ == 0) ++impl_->objects.programs;
   glDeleteProgram(program.id_);
   if (impl_->boundProgram == program.id_) impl_->boundProgram = 0;
-  program.id_ = *built;
+  program.id_ = linked;
   impl_->setLabel(GL_PROGRAM, program.id_, describe(program.desc_));
+  std::vector<std::string> files = std::move(program.reflection_->files);
   *program.reflection_ = {};
-  program.reflection_->files.assign(files.begin(), files.end());
+  program.reflection_->files = std::move(files);
   Reflector reflector{program.id_, *program.reflection_};
   reflector.uniforms();
   reflector.blocks();
+}
+
+Result<std::uint32_t> Device::link(Program& program) {
+  std::set<std::string> files;
+  Result<std::uint32_t> linked = build(*impl_->sources, program.desc_, files);
+  program.reflection_->files.assign(files.begin(), files.end());
+  if (!linked && !program.usable()) {
+    impl_->errors.push_back(linked.error());
+    program.reflection_->fault = linked.error();
+  }
+  return linked;
 }
 
 ProgramPtr Device::program(const ProgramDesc& desc) {
@@ -317,7 +358,7 @@ ProgramPtr Device::program(const ProgramDesc& desc) {
     entry.reset(new Program());
     entry->desc_ = desc;
     entry->device_ = this;
-    rebuild(*entry);
+    if (const auto linked = link(*entry)) take(*entry, *linked);
   } else if (const auto& fault = entry->reflection_->fault) {
     // Who asks for it only now must hear of it too, but once in each batch of errors is enough.
     if (std::ranges::find(impl_->errors, fault->message, &Error::message) == impl_->errors.end())
@@ -326,10 +367,10 @@ ProgramPtr Device::program(const ProgramDesc& desc) {
   return entry;
 }
 
-int Device::reloadChangedShaders() {
-  const std::vector<std::string> changed = impl_->sources.changedFiles();
+Result<int> Device::reloadShaders(std::span<const std::string> changed) {
   if (changed.empty()) return 0;
-  int reloaded = 0;
+  std::vector<std::pair<Program*, std::uint32_t>> linked;
+  std::vector<std::string> faults;
   for (auto& [desc, program] : impl_->programs) {
     const std::vector<std::string>& files = program->reflection_->files;
     // What never compiled may wait for a file that it could not even name.
@@ -338,10 +379,18 @@ int Device::reloadChangedShaders() {
           return std::ranges::binary_search(files, file);
         });
     if (!concerned) continue;
-    rebuild(*program);
-    ++reloaded;
+    if (const auto id = link(*program))
+      linked.emplace_back(program.get(), *id);
+    else if (program->usable())
+      faults.push_back(id.error().message);
   }
-  return reloaded;
+  for (const auto& [program, id] : linked)
+    if (faults.empty())
+      take(*program, id);
+    else
+      glDeleteProgram(id);
+  if (!faults.empty()) return error(ErrorKind::Pipeline, "{}", join(faults, "\n"));
+  return static_cast<int>(linked.size());
 }
 
 }  // namespace lucerna::gpu

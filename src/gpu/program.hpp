@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <vector>
 
 #include "core/math/math.hpp"
 
@@ -27,6 +28,12 @@ struct ProgramDesc {
   }
 };
 
+// One thing that a program reads. type: as GLSL spells it ("vec3", "sampler2D"), "block" for
+// uniform and storage blocks, "other" for types that have no place here.
+struct ProgramInput {
+  std::string name, type;
+};
+
 // Uniforms by name; a name the program does not use is ignored (the compiler may drop it), a wrong
 // type asserts. Values stay with the program, except over a reload: set them before each use.
 // Textures and blocks are bound by name at the draw.
@@ -39,6 +46,8 @@ class Program {
   // False if it never compiled: draws with it do nothing, and Device::takeErrors() has the reason.
   bool usable() const { return id_ != 0; }
   const ProgramDesc& desc() const { return desc_; }
+  // What the linked program reads, for whoever binds by names that are data; empty if unusable.
+  std::vector<ProgramInput> inputs() const;
 
   void set(std::string_view name, float value) const;
   void set(std::string_view name, int value) const;

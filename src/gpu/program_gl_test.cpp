@@ -259,21 +259,35 @@ TEST_F(ProgramGlTest, ReloadKeepsTheLastGoodProgram) {
     return firstPixel(color).x;
   };
   EXPECT_EQ(drawn(), 1.f);
-  EXPECT_EQ(device().reloadChangedShaders(), 0);
+  const auto reload = [&] {
+    return device().reloadShaders(device().shaderSources().changedFiles());
+  };
+  EXPECT_EQ(reload().value(), 0);
   write("test/value.glsl", "const float value = 2.0;\n");
-  EXPECT_EQ(device().reloadChangedShaders(), 1);
+  EXPECT_EQ(reload().value(), 1);
   EXPECT_EQ(drawn(), 2.f);
+
+  // One that does not compile any more keeps all that changed with it.
+  write("test/other.frag", "layout(location = 0) out float color;\nvoid main() { color = 7.0; }\n");
+  const ProgramPtr other =
+      device().program({.vertex = "gpu/fullscreen.vert", .fragment = "test/other.frag"});
+  EXPECT_EQ(reload().value(), 1);
   write("test/value.glsl", "const float value = ;\n");
-  EXPECT_EQ(device().reloadChangedShaders(), 1);
-  const std::vector<Error> errors = device().takeErrors();
-  ASSERT_EQ(errors.size(), 1u);
-  EXPECT_THAT(errors[0].message, HasSubstr("test/value.glsl:1: error"));
+  write("test/other.frag",
+        "uniform int added;\nlayout(location = 0) out float color;\n"
+        "void main() { color = float(added); }\n");
+  const auto failed = reload();
+  ASSERT_FALSE(failed);
+  EXPECT_THAT(failed.error().message, HasSubstr("test/value.glsl:1: error"));
+  EXPECT_THAT(device().takeErrors(), testing::IsEmpty());
   EXPECT_TRUE(program->usable());
   EXPECT_EQ(drawn(), 2.f);
+  EXPECT_THAT(other->inputs(), testing::IsEmpty());
+
   write("test/value.glsl", "const float value = 3.0;\n");
-  EXPECT_EQ(device().reloadChangedShaders(), 1);
+  EXPECT_EQ(reload().value(), 1);
   EXPECT_EQ(drawn(), 3.f);
-  EXPECT_EQ(device().objectCounts().programs, 1);
+  EXPECT_EQ(device().objectCounts().programs, 2);
   fs::remove_all(root);
 }
 

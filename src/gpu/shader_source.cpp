@@ -26,6 +26,15 @@ std::optional<std::string_view> directive(std::string_view line, std::string_vie
   return line;
 }
 
+constexpr std::uint64_t kMaxUserShaderBytes = 4 << 20;
+
+// A file that does not exist has the earliest time, so that it counts as changed when it appears.
+fs::file_time_type timeOf(const fs::path& path) {
+  std::error_code missing;
+  const auto time = fs::last_write_time(path, missing);
+  return missing ? fs::file_time_type::min() : time;
+}
+
 bool isShaderFile(const fs::path& path) {
   const fs::path extension = path.extension();
   return extension == ".vert" || extension == ".frag" || extension == ".comp" ||
@@ -44,8 +53,22 @@ void ShaderSources::setRoot(fs::path root) {
   times_ = listRoot();
 }
 
-Result<std::string> ShaderSources::read(const std::string& path,
-                                        const std::string& includedFrom) const {
+bool ShaderSources::contains(std::string_view path) const {
+  return embedded_.contains(path);
+}
+
+bool isUserShader(std::string_view path) {
+  return path.starts_with("/") || path.starts_with("./") || path.starts_with("../");
+}
+
+Result<std::string> ShaderSources::read(const std::string& path, const std::string& includedFrom) {
+  const std::string place = includedFrom.empty() ? "" : includedFrom + ": error: ";
+  if (isUserShader(path)) {
+    userTimes_.emplace(path, timeOf(path));
+    auto text = readText(path, kMaxUserShaderBytes);
+    if (!text) return error(ErrorKind::Pipeline, "{}{}", place, text.error().message);
+    return text;
+  }
   if (!root_.empty()) {
     std::error_code ignored;
     if (fs::is_regular_file(root_ / path, ignored)) return readText(root_ / path);
@@ -54,15 +77,24 @@ Result<std::string> ShaderSources::read(const std::string& path,
     return std::string(found->second);
   std::vector<std::string> known;
   for (const auto& [name, text] : embedded_) known.push_back(name);
-  const std::string place = includedFrom.empty() ? "" : includedFrom + ": error: ";
   const std::string searched =
       root_.empty() ? "the built-in shaders" : root_.string() + " and the built-in shaders";
   return error(ErrorKind::Pipeline, "{}no shader file '{}' in {}{}; paths are relative to src/",
                place, path, searched, didYouMean(path, known));
 }
 
+// The file that an #include of `from` means.
+std::string ShaderSources::included(const std::string& path, const std::string& from) const {
+  if (!isUserShader(from)) return path;
+  const fs::path beside = fs::path(from).parent_path() / path;
+  std::error_code ignored;
+  if (!fs::is_regular_file(beside, ignored)) return path;
+  const std::string name = beside.lexically_normal().generic_string();
+  return isUserShader(name) ? name : "./" + name;
+}
+
 Status ShaderSources::append(const std::string& path, const std::string& includedFrom,
-                             ExpandedShader& result) const {
+                             ExpandedShader& result) {
   if (std::find(result.files.begin(), result.files.end(), path) != result.files.end()) return {};
   LUCERNA_TRY(text, read(path, includedFrom));
   const int file = static_cast<int>(result.files.size());
@@ -86,13 +118,14 @@ Status ShaderSources::append(const std::string& path, const std::string& include
       return error(ErrorKind::Pipeline,
                    "{}: error: found '{}', expected #include \"path relative to src/\"", place,
                    line);
-    LUCERNA_TRY_VOID(append(std::string(argument->substr(1, close - 1)), place, result));
+    LUCERNA_TRY_VOID(
+        append(included(std::string(argument->substr(1, close - 1)), path), place, result));
   }
   return {};
 }
 
-Result<ExpandedShader> ShaderSources::expand(
-    const std::string& path, const std::map<std::string, std::string>& defines) const {
+Result<ExpandedShader> ShaderSources::expand(const std::string& path,
+                                             const std::map<std::string, std::string>& defines) {
   ExpandedShader result;
   result.text = "#version 450 core\n";
   result.lines.resize(1 + defines.size());
@@ -104,8 +137,8 @@ Result<ExpandedShader> ShaderSources::expand(
   return result;
 }
 
-std::map<std::string, fs::file_time_type> ShaderSources::listRoot() const {
-  std::map<std::string, fs::file_time_type> times;
+ShaderSources::Times ShaderSources::listRoot() const {
+  Times times;
   std::error_code failure;  // files may vanish while we look: they are then not listed
   if (root_.empty()) return times;
   fs::recursive_directory_iterator entry(root_, fs::directory_options::skip_permission_denied,
@@ -120,7 +153,7 @@ std::map<std::string, fs::file_time_type> ShaderSources::listRoot() const {
 }
 
 std::vector<std::string> ShaderSources::changedFiles() {
-  std::map<std::string, fs::file_time_type> now = listRoot();
+  Times now = listRoot();
   std::vector<std::string> changed;
   for (const auto& [path, time] : now) {
     const auto before = times_.find(path);
@@ -128,6 +161,9 @@ std::vector<std::string> ShaderSources::changedFiles() {
   }
   for (const auto& [path, time] : times_)
     if (!now.contains(path)) changed.push_back(path);
+  for (auto& [path, time] : userTimes_)
+    if (const auto newTime = timeOf(path); newTime != std::exchange(time, newTime))
+      changed.push_back(path);
   std::sort(changed.begin(), changed.end());
   times_ = std::move(now);
   return changed;

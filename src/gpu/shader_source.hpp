@@ -1,6 +1,7 @@
-// Shader text by path (relative to src/), with includes. Shaders are compiled into the libraries;
-// a folder given by setRoot() (--shaders DIR, LUCERNA_SHADERS) is read first, which gives hot
-// reload.
+// Shader text by path, with includes. Most paths are relative to src/: those shaders are compiled
+// into the libraries; a folder given by setRoot() (--shaders DIR, LUCERNA_SHADERS) is read first.
+// A path that begins with "/", "./" or "../" is a file of the user's. What was read from files is
+// watched, which gives hot reload.
 #pragma once
 
 #include <filesystem>
@@ -36,25 +37,33 @@ class ShaderSources {
   void add(std::span<const EmbeddedShader> shaders);
   void setRoot(std::filesystem::path root);
 
-  // Expands `#include "path"` (paths relative to src/, each file once) and puts `#version 450 core`
-  // and the defines on top. Includes are taken before the preprocessor runs, so they stand outside
-  // #if. Errors (ErrorKind::Pipeline) name file and line.
+  // Expands `#include "path"` (each file once) and puts `#version 450 core` and the defines on top.
+  // Paths are relative to src/; in a user's file, first to its own folder. Includes are taken
+  // before the preprocessor runs, so they stand outside #if. Errors (ErrorKind::Pipeline) name file
+  // and line.
   Result<ExpandedShader> expand(const std::string& path,
-                                const std::map<std::string, std::string>& defines) const;
-  // Shader files under the root that changed since the last call (at first: since setRoot), as
-  // paths relative to it, sorted. Empty without a root.
+                                const std::map<std::string, std::string>& defines);
+  bool contains(std::string_view path) const;  // compiled in
+
+  // Shader files under the root and users' files read so far that changed since the last call (at
+  // first: since setRoot or their first reading), as expand() names them, sorted.
   std::vector<std::string> changedFiles();
 
  private:
-  Result<std::string> read(const std::string& path, const std::string& includedFrom) const;
-  Status append(const std::string& path, const std::string& includedFrom,
-                ExpandedShader& result) const;
-  std::map<std::string, std::filesystem::file_time_type> listRoot() const;
+  using Times = std::map<std::string, std::filesystem::file_time_type>;
+  Result<std::string> read(const std::string& path, const std::string& includedFrom);
+  Status append(const std::string& path, const std::string& includedFrom, ExpandedShader& result);
+  std::string included(const std::string& path, const std::string& from) const;
+  Times listRoot() const;
 
   std::map<std::string, std::string_view, std::less<>> embedded_;
   std::filesystem::path root_;
-  std::map<std::string, std::filesystem::file_time_type> times_;
+  Times times_;      // of the root's files
+  Times userTimes_;  // of users' files
 };
+
+// A path of a user's file rather than one relative to src/.
+bool isUserShader(std::string_view path);
 
 // Turns a driver's log into "file:line: error: ..." lines. Reads the forms of Mesa
 // ("0:12(3): error: ..."), NVIDIA ("0(12) : error C0000: ...") and AMD ("ERROR: 0:12: ...");

@@ -118,6 +118,29 @@ TEST_F(ShaderRoot, ReportsChangesOnce) {
   EXPECT_THAT(shaders.changedFiles(), ElementsAre());
 }
 
+TEST_F(ShaderRoot, UsersFilesIncludeWhatStandsBesideThemThenWhatIsCompiledIn) {
+  write("a/user.frag", "#include \"beside.glsl\"\n#include \"a/two.glsl\"\n");
+  write("a/beside.glsl", "#include \"a/one.glsl\"\nint beside;\n");
+  ShaderSources shaders = sources();
+  const std::string user = (root_ / "a/user.frag").string();
+  const std::string beside = (root_ / "a/beside.glsl").string();
+  const auto shader = shaders.expand(user, {});
+  ASSERT_TRUE(shader) << shader.error().message;
+  EXPECT_THAT(shader->files, ElementsAre(user, beside, "a/one.glsl", "a/two.glsl"));
+
+  EXPECT_THAT(shaders.changedFiles(), ElementsAre());
+  write("a/beside.glsl", "int changed;\n");
+  EXPECT_THAT(shaders.changedFiles(), ElementsAre(beside));
+  fs::remove(user);
+  EXPECT_THAT(shaders.changedFiles(), ElementsAre(user));
+  const auto gone = shaders.expand(user, {});
+  ASSERT_FALSE(gone);
+  EXPECT_EQ(gone.error().kind, ErrorKind::Pipeline);
+  EXPECT_THAT(gone.error().message, HasSubstr(user + ": cannot be opened"));
+  write("a/user.frag", "");
+  EXPECT_THAT(shaders.changedFiles(), ElementsAre(user));
+}
+
 TEST(ShaderLog, ThreeDriversFormsAreMapped) {
   const ExpandedShader shader{"", {"a/main.frag", "a/one.glsl"}, {{-1, 0}, {0, 7}, {1, 12}}};
   EXPECT_EQ(mapShaderLog("0:3(8): error: `x' undeclared\n", shader),

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "core/text.hpp"
+
 namespace lucerna::graph {
 namespace {
 
@@ -21,6 +23,43 @@ std::string kindText(const TextureSpec& spec) {
       return fmt::format("a 2D texture of {} samples a pixel", spec.samples);
   }
   return "a texture";
+}
+
+const char* nameOf(gpu::FormatClass kind) {
+  switch (kind) {
+    case gpu::FormatClass::Float:
+      return "any float";
+    case gpu::FormatClass::Unorm:
+      return "any unorm";
+    case gpu::FormatClass::Uint:
+      return "any unsigned integer";
+    case gpu::FormatClass::Int:
+      return "any integer";
+    case gpu::FormatClass::Depth:
+      return "any depth";
+  }
+  return "";
+}
+
+// A class stands for its formats where all of them are there.
+std::vector<std::string> formatNames(const std::vector<gpu::Format>& formats) {
+  const auto isThere = [&](gpu::Format format) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  };
+  const auto isWhole = [&](gpu::FormatClass kind) {
+    return std::ranges::all_of(gpu::allFormats(), [&](const gpu::FormatInfo& info) {
+      return info.kind != kind || isThere(info.format);
+    });
+  };
+  std::vector<std::string> names;
+  for (const gpu::Format format : formats) {
+    const gpu::FormatInfo& info = gpu::info(format);
+    const bool whole = formats.size() > 1 && isWhole(info.kind);
+    std::string name = whole ? nameOf(info.kind) : std::string(info.name);
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      names.push_back(std::move(name));
+  }
+  return names;
 }
 
 template <typename Predicate>
@@ -47,6 +86,8 @@ const char* nameOf(ParamType type) {
       return "color";
     case ParamType::Vector:
       return "vector";
+    case ParamType::File:
+      return "file";
   }
   return "";
 }
@@ -89,9 +130,7 @@ const char* nameOf(Frequency frequency) {
 
 std::string PortType::text() const {
   if (!texture) return fmt::format("{} data", dataName);
-  std::string formats;
-  for (const gpu::Format format : texture->formats)
-    formats += fmt::format("{}{}", formats.empty() ? "" : " or ", gpu::info(format).name);
+  const std::string formats = join(formatNames(texture->formats), " or ");
   return formats.empty() ? kindText(*texture) : fmt::format("{} ({})", kindText(*texture), formats);
 }
 

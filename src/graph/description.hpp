@@ -18,7 +18,8 @@
 
 namespace lucerna::graph {
 
-enum class ParamType { Bool, Int, Float, Choice, Text, Color, Vector };
+// File: a path, in pipelines relative to their own file (Pipeline::folder).
+enum class ParamType { Bool, Int, Float, Choice, Text, Color, Vector, File };
 
 // What changing a parameter costs: nothing (read each frame), new shaders, or a new description
 // (ports, sizes or formats depend on it).
@@ -93,13 +94,20 @@ const char* nameOf(Direction direction);  // "in", "out", "inout"
 const char* nameOf(Rebuild rebuild);      // "nothing"
 const char* nameOf(Frequency frequency);  // "per view"
 
+// What the values of a row ask for and the pass cannot give: a file that cannot be read, say.
+struct DescriptionFault {
+  std::string param{};
+  std::string found{}, wanted{}, remedy{};
+};
+
 struct PassDescription {
   std::string type{};     // "ScreenSpaceAo"
   std::string summary{};  // one sentence
   std::vector<ParamDescription> params{};
   std::vector<PortDescription> ports{};
   Frequency frequency = Frequency::PerView;
-  std::vector<std::string> features{};  // gpu::kFeature... names
+  std::vector<std::string> features{};     // gpu::kFeature... names
+  std::vector<DescriptionFault> faults{};  // with one, ports and parameters may be missing
 
   const ParamDescription* param(std::string_view name) const;
   const PortDescription* input(std::string_view name) const;   // In or InOut

@@ -168,15 +168,13 @@ void Executor::Impl::makeInstances() {
       rows.push_back(std::move(row));
       continue;
     }
-    bool paramsKnown = false;
     for (Row& known : old)
       if (known.instance && known.name == row.name && known.type == row.type) {
         row.instance = std::move(known.instance);
-        paramsKnown = known.params == row.params;
         break;
       }
     if (!row.instance) row.instance = registry.find(row.type)->create(device);
-    if (!paramsKnown) row.instance->setParams(row.params);
+    row.instance->setParams(row.params);
     rows.push_back(std::move(row));
   }
 }

@@ -31,6 +31,8 @@ const char* nameOf(FaultKind kind) {
       return "ValueOutOfRange";
     case FaultKind::WrongValueType:
       return "WrongValueType";
+    case FaultKind::UnusableValue:
+      return "UnusableValue";
     case FaultKind::OutputNeverRead:
       return "OutputNeverRead";
     case FaultKind::DisabledWithoutStandIn:

@@ -18,6 +18,7 @@ enum class FaultKind {
   DuplicateName,
   ValueOutOfRange,
   WrongValueType,
+  UnusableValue,  // of the right type, but the pass cannot work with it
   OutputNeverRead,
   DisabledWithoutStandIn,
   ProducerChanged,

@@ -36,7 +36,8 @@ struct BoundPort {
 class PassInstance {
  public:
   virtual ~PassInstance() = default;
-  // Called when the row's values changed and before the first execute.
+  // Called before the first execute, when the row's values changed, and whenever the pipeline is
+  // set: the description may depend on files that changed.
   virtual void setParams(const ParamValues& values) = 0;
   // The graph has opened the debug group and the timer. Ports in the order of the description.
   virtual void execute(PassContext& context, std::span<const BoundPort> ports) = 0;

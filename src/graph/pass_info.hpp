@@ -68,6 +68,10 @@ class ParamBuilder {
     d_->type = ParamType::Color;
     return *this;
   }
+  ParamBuilder& file() {  // of a std::string
+    d_->type = ParamType::File;
+    return *this;
+  }
 
  private:
   ParamDescription* d_;

@@ -36,6 +36,7 @@ struct Pipeline {
   // What the text that it was read from has wrong (BadForm). validate() gives them with its own, so
   // that all faults are told at once; what is wrong is left out above.
   std::vector<Fault> formFaults{};
+  std::string folder{};  // of that file; "" if the pipeline is compiled in
 };
 
 inline constexpr std::size_t kMaxPipelineRows = 256;
@@ -48,8 +49,13 @@ std::string toJson(const Pipeline& pipeline);
 
 class Registry;
 
-// One of --set: "Row.param=value", "Row.enabled=false" or "Row.reads.port=Other.port". Errors
-// (ErrorKind::Usage) say which rows and parameters there are.
+// Makes paths (ParamType::File) that are relative to pipeline.folder relative to the working
+// directory: "./" or "../" in front then tells them from paths of what is compiled in.
+void resolveFiles(Pipeline& pipeline, const Registry& registry);
+
+// One of --set: "Row.param=value", "Row.enabled=false" or "Row.reads.port=Other.port". Paths are
+// relative to the working directory. Errors (ErrorKind::Usage) say which rows and parameters there
+// are.
 Status applySetting(Pipeline& pipeline, const Registry& registry, const std::string& setting);
 
 }  // namespace lucerna::graph

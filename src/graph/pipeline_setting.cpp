@@ -1,5 +1,6 @@
-// --set Row.param=value
+// --set Row.param=value, and the files that rows name.
 #include <algorithm>
+#include <filesystem>
 
 #include "core/text.hpp"
 #include "graph/pipeline.hpp"
@@ -8,6 +9,13 @@
 
 namespace lucerna::graph {
 namespace {
+
+std::string resolved(const std::string& path, const std::string& folder) {
+  if (path.empty()) return path;
+  const std::string name =
+      (std::filesystem::path(folder) / path).lexically_normal().generic_string();
+  return name.starts_with("/") || name.starts_with("../") ? name : "./" + name;
+}
 
 std::vector<std::string> rowNames(const Pipeline& pipeline) {
   std::vector<std::string> names;
@@ -49,11 +57,25 @@ Status setParam(PassRow& row, const PassDescription& description, const std::str
                  row.type, name, didYouMean(name, known), join(known));
   }
   LUCERNA_TRY(value, parseValue(*param, text));
-  row.params[name] = value;
+  row.params[name] = param->type == ParamType::File ? Value(resolved(text, ".")) : value;
   return {};
 }
 
 }  // namespace
+
+void resolveFiles(Pipeline& pipeline, const Registry& registry) {
+  if (pipeline.folder.empty()) return;
+  for (PassRow& row : pipeline.passes) {
+    const PassType* type = registry.find(row.type);
+    if (!type) continue;
+    for (const ParamDescription& param : type->describe({}).params) {
+      const auto value = row.params.find(param.name);
+      if (param.type != ParamType::File || value == row.params.end()) continue;
+      if (auto* path = std::get_if<std::string>(&value->second))
+        *path = resolved(*path, pipeline.folder);
+    }
+  }
+}
 
 Status applySetting(Pipeline& pipeline, const Registry& registry, const std::string& setting) {
   const std::size_t equals = setting.find('=');

@@ -212,6 +212,30 @@ TEST_F(Setting, EnablesAndRewires) {
   EXPECT_TRUE(pipeline_.passes[1].reads.empty());
 }
 
+TEST_F(Setting, FilesAreRelativeToThePipelinesFileOrOnTheCommandLineToTheWorkingDirectory) {
+  add(registry_, FakePass("Lut").param(
+                     {.name = "table", .type = ParamType::File, .defaultValue = "built/in.lut"}));
+  const auto tables = [&](const std::string& folder, const std::string& path) {
+    Pipeline pipeline = pipelineOf({FakeRow("Lut").with("table", path), FakeRow("Lut")});
+    pipeline.folder = folder;
+    resolveFiles(pipeline, registry_);
+    EXPECT_FALSE(pipeline.passes[1].params.contains("table"));
+    return std::get<std::string>(pipeline.passes[0].params.at("table"));
+  };
+  EXPECT_EQ(tables("looks", "a.lut"), "./looks/a.lut");
+  EXPECT_EQ(tables(".", "a.lut"), "./a.lut");
+  EXPECT_EQ(tables("looks", "../a.lut"), "./a.lut");
+  EXPECT_EQ(tables("..", "a.lut"), "../a.lut");
+  EXPECT_EQ(tables("/home/looks", "a.lut"), "/home/looks/a.lut");
+  EXPECT_EQ(tables("looks", "/a.lut"), "/a.lut");
+  EXPECT_EQ(tables("", "built/in.lut"), "built/in.lut") << "of a shipped pipeline";
+
+  pipeline_ = pipelineOf({FakeRow("Lut")});
+  pipeline_.folder = "looks";
+  set("Lut.table=a.lut");
+  EXPECT_EQ(pipeline_.passes[0].params.at("table"), Value(std::string("./a.lut")));
+}
+
 TEST_F(Setting, FaultsSayWhatThereIs) {
   EXPECT_THAT(fault("Ao3.radius=1"), AllOf(HasSubstr("'Ao3'"), HasSubstr("did you mean 'Ao")));
   EXPECT_THAT(fault("Ao.raduis=1"), HasSubstr("did you mean 'radius'"));

@@ -1,5 +1,5 @@
-// The pass types that pipelines may name, and the resources that the application gives to all
-// passes.
+// The pass types that pipelines may name, their shaders, and the resources that the application
+// gives to all passes.
 #pragma once
 
 #include <map>
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/shader_source.hpp"
 #include "graph/pass_info.hpp"
 
 namespace lucerna::graph {
@@ -34,10 +35,13 @@ class Registry {
   std::vector<std::string> typeNames() const;  // in the order of registration
   const ResourceDescription* resource(std::string_view name) const;
   const std::vector<ResourceDescription>& resources() const { return resources_; }
+  // The shaders of the passes; the Device that draws them shares these (Device::create).
+  const std::shared_ptr<gpu::ShaderSources>& shaders() const { return shaders_; }
 
  private:
   std::vector<std::pair<std::string, std::unique_ptr<PassType>>> types_;
   std::vector<ResourceDescription> resources_;
+  std::shared_ptr<gpu::ShaderSources> shaders_ = std::make_shared<gpu::ShaderSources>();
 };
 
 template <PortData T>

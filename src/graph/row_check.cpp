@@ -31,11 +31,15 @@ class Checker {
       check_.description = type->describe({});
       return std::move(check_);
     }
-    checkParams(type->describe({}));
     check_.description = describeChecked(*type, row_.params);
-    checkDeclaration(*check_.description);
-    checkReads(*check_.description);
-    if (row_.enabled) checkCapabilities(*check_.description);
+    const PassDescription& description = *check_.description;
+    for (const DescriptionFault& fault : description.faults)
+      report(FaultKind::UnusableValue, fmt::format("{}, parameter '{}'", place_, fault.param),
+             fault.found, fault.wanted, fault.remedy);
+    checkParams(description);
+    checkDeclaration(description);
+    if (description.faults.empty()) checkReads(description);
+    if (row_.enabled) checkCapabilities(description);
     return std::move(check_);
   }
 
@@ -65,6 +69,7 @@ class Checker {
     for (const auto& [name, value] : row_.params) {
       const std::string place = fmt::format("{}, parameter '{}'", place_, name);
       const ParamDescription* param = description.param(name);
+      if (!param && !description.faults.empty()) continue;  // it may be one that is missing
       if (!param) {
         const std::string near = closest(name, names);
         report(FaultKind::UnknownParameter, place,

@@ -93,7 +93,7 @@ class Validator {
                 .remedy = fmt::format("give one a \"name\", such as '{}2'", row.name)});
       RowCheck check = checkRow(pipeline_, i, registry_, capabilities_);
       descriptions_[i] = std::move(check.description);
-      wiringKnown_ = wiringKnown_ && descriptions_[i];
+      wiringKnown_ = wiringKnown_ && descriptions_[i] && descriptions_[i]->faults.empty();
       for (Fault& fault : check.faults) faults_.emplace_back(i, std::move(fault));
     }
     if (!anyEnabled)

@@ -21,6 +21,35 @@ struct Lists {
   static constexpr const char* kPortName = "Lists";
 };
 
+// Its parameter "b" exists while "a" is 2, its input "in" while "b" is 3.
+class Unfolding final : public PassType {
+ public:
+  PassDescription describe(const ParamValues& values) const override {
+    const auto is = [&](const char* name, std::int64_t number) {
+      const auto value = values.find(name);
+      return value != values.end() && value->second == Value(number);
+    };
+    FakePass pass("Unfolding");
+    const auto number = [](const char* name) {
+      return ParamDescription{.name = name,
+                              .type = ParamType::Int,
+                              .defaultValue = std::int64_t{0},
+                              .min = 0,
+                              .max = 9};
+    };
+    pass.param(number("a"));
+    if (is("a", 2)) pass.param(number("b"));
+    if (is("b", 3)) pass.in("in");
+    pass.out("color", Format::Rgba8Unorm);
+    PassDescription description = pass.describe({});
+    if (is("a", 7)) description.faults.push_back({"a", "seven", "another number", "change it"});
+    return description;
+  }
+  std::unique_ptr<PassInstance> create(gpu::Device&) const override {
+    return std::make_unique<FakeInstance>();
+  }
+};
+
 class Validate : public testing::Test {
  protected:
   Validate() {
@@ -46,6 +75,7 @@ class Validate : public testing::Test {
         FakePass("Tone").in("color", Format::Rgba16Float).out("color", Format::Rgba8Unorm));
     add(registry_,
         FakePass("Taa").in("color").in("past").history().out("color", Format::Rgba16Float));
+    registry_.add(std::make_unique<Unfolding>());
     add(registry_, FakePass("MakeLists").data<Lists>("lists", Direction::Out));
     add(registry_, FakePass("SortLists").data<Lists>("lists", Direction::InOut));
     add(registry_, FakePass("DrawLists")
@@ -233,6 +263,27 @@ TEST_F(Validate, WrongValueType) {
 //    GBuffer -> Light -> Tone -> (output)
 //        |
 //        +-> Ao -> nobody                      Light does not read it here
+TEST_F(Validate, ParametersAndPortsThatExistForSomeValuesOnly) {
+  const auto row = [](std::int64_t a, std::int64_t b) {
+    return FakeRow("Unfolding").with("a", a).with("b", b);
+  };
+  EXPECT_THAT(only(check({row(1, 3)}), FaultKind::UnknownParameter).place, HasSubstr("'b'"));
+  EXPECT_THAT(only(check({row(2, 10)}), FaultKind::ValueOutOfRange).place, HasSubstr("'b'"));
+  EXPECT_THAT(only(check({row(2, 3)}), FaultKind::MissingInput).place, HasSubstr("input 'in'"));
+  EXPECT_THAT(check({"GBuffer", row(2, 3).reads("in", "GBuffer.normal")}).text(), IsEmpty());
+}
+
+// Faults that follow from it are not reported: what the row sets and reads may be right.
+TEST_F(Validate, UnusableValue) {
+  const Fault fault = only(check({"GBuffer", FakeRow("Unfolding")
+                                                 .with("a", std::int64_t{7})
+                                                 .with("c", 1.0)
+                                                 .reads("in", "GBuffer.normal")}),
+                           FaultKind::UnusableValue);
+  EXPECT_THAT(fault.place, HasSubstr("row 2, pass 'Unfolding', parameter 'a'"));
+  EXPECT_EQ(fault.found, "seven");
+}
+
 TEST_F(Validate, OutputNeverRead) {
   const Validation result = check({"GBuffer", "Light", "Ao", "Tone"});
   const Fault fault = only(result, FaultKind::OutputNeverRead, Severity::Warning);

@@ -32,6 +32,7 @@ bool hasType(const ParamDescription& param, const Value& value) {
       return asNumber(value).has_value();
     case ParamType::Choice:
     case ParamType::Text:
+    case ParamType::File:
       return std::holds_alternative<std::string>(value);
     case ParamType::Color:
     case ParamType::Vector: {
@@ -103,6 +104,7 @@ std::optional<Value> parseForm(const ParamDescription& param, const std::string&
     }
     case ParamType::Choice:
     case ParamType::Text:
+    case ParamType::File:
       return Value(text);
     case ParamType::Color:
     case ParamType::Vector:
@@ -120,6 +122,8 @@ std::string wantedText(const ParamDescription& param) {
       return "true or false";
     case ParamType::Text:
       return "a text";
+    case ParamType::File:
+      return "the path of a file";
     case ParamType::Choice:
       return fmt::format("one of {}", join(param.choices));
     case ParamType::Int:
@@ -176,11 +180,15 @@ Result<Value> parseValue(const ParamDescription& param, const std::string& text)
 PassDescription describeChecked(const PassType& type, const ParamValues& values) {
   PassDescription description = type.describe({});
   ParamValues checked;
-  for (const auto& [name, value] : values)
-    if (const ParamDescription* param = description.param(name);
-        param && !checkValue(*param, value))
-      checked[name] = value;
-  return checked.empty() ? description : type.describe(checked);
+  // A parameter may exist only for some values of others: again, until no value is added.
+  for (std::size_t count = 0;; count = checked.size()) {
+    for (const auto& [name, value] : values)
+      if (const ParamDescription* param = description.param(name);
+          param && !checkValue(*param, value))
+        checked[name] = value;
+    if (checked.size() == count) return description;
+    description = type.describe(checked);
+  }
 }
 
 }  // namespace lucerna::graph

@@ -22,11 +22,13 @@ struct Stage {
 
 Stage stageOf(const std::string& type) {
   if (type == "Forward") return {testing::kForwardRows, "ToneMap.color"};
+  if (type == "Fullscreen")  // of any format, so nobody reads it
+    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
   if (type == "ShowGBuffer")
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
-  if (type == "ShowBvh")
-    return {{"Cull", "GBuffer", "Lighting", "ShowBvh", "ToneMap"}, "ToneMap.color"};
-  return {testing::kDeferredRows, "ToneMap.color"};
+  if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())
+    return {testing::kDeferredRows, "ToneMap.color"};
+  return {{"Cull", "GBuffer", "Lighting", type, "ToneMap"}, "ToneMap.color"};
 }
 
 // Values at the ends of a parameter's range.
@@ -49,6 +51,7 @@ std::vector<graph::Value> extremes(const graph::ParamDescription& param) {
         values.emplace_back(std::vector<double>(param.size, value));
       return values;
     case ParamType::Text:
+    case ParamType::File:
       return {param.defaultValue};
   }
   return values;

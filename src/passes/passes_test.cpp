@@ -38,12 +38,6 @@ const std::vector<std::string> kDeferred = {"Cull",       "GBuffer",      "Light
 const std::vector<std::string> kForward = {"Cull", "Forward", "Background", "Transparency",
                                            "ToneMap"};
 
-TEST(Passes, AreThoseThatTheDocumentsList) {
-  EXPECT_THAT(registry().typeNames(),
-              ::testing::ElementsAre("Cull", "GBuffer", "Lighting", "Forward", "Background",
-                                     "Transparency", "ToneMap", "ShowGBuffer", "ShowBvh"));
-}
-
 class EachPass : public ::testing::TestWithParam<std::string> {
  protected:
   graph::PassDescription description_ = registry().find(GetParam())->describe({});

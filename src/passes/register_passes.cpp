@@ -3,6 +3,7 @@
 #include "passes/background/background.hpp"
 #include "passes/cull/cull.hpp"
 #include "passes/forward/forward.hpp"
+#include "passes/fullscreen/fullscreen.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/lighting/lighting.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
@@ -19,6 +20,9 @@ std::span<const EmbeddedShader> embeddedShaders_passes();
 namespace lucerna::passes {
 
 void registerPasses(graph::Registry& registry) {
+  registry.shaders()->add(gpu::embeddedShaders_render());
+  registry.shaders()->add(gpu::embeddedShaders_passes());
+
   registry.addResource<render::GpuScene>("scene", "Objects, meshes, materials, textures.");
   registry.addResource<render::ViewData>("view", "Where this picture is seen from.", true);
   registry.addResource<render::LightList>("lights", "The lights that are on.");
@@ -32,11 +36,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ToneMap>();
   registry.add<ShowGBuffer>();
   registry.add<ShowBvh>();
-}
-
-void registerShaders(gpu::ShaderSources& sources) {
-  sources.add(gpu::embeddedShaders_render());
-  sources.add(gpu::embeddedShaders_passes());
+  registry.add(fullscreenType(registry.shaders()));
 }
 
 }  // namespace lucerna::passes

@@ -8,6 +8,21 @@
 
 namespace lucerna::script {
 
+namespace {
+
+Result<graph::Pipeline> readPipelineJson(const std::string& path, const ScriptInput& input) {
+  if (!input.params.empty())
+    return error(ErrorKind::Usage,
+                 "{}: 'script.{}' is set, but a JSON pipeline has no parameters of its own", path,
+                 input.params.begin()->first);
+  LUCERNA_TRY(text, readText(path));
+  LUCERNA_TRY(pipeline, graph::pipelineFromJson(text, path));
+  if (pipeline.name.empty()) pipeline.name = std::filesystem::path(path).stem().string();
+  return pipeline;
+}
+
+}  // namespace
+
 std::vector<std::string> shippedPipelineNames() {
   std::vector<std::string> names;
   for (const EmbeddedText& file : shippedPipelines())
@@ -17,15 +32,11 @@ std::vector<std::string> shippedPipelineNames() {
 
 Result<graph::Pipeline> loadPipeline(const std::string& nameOrFile, const ScriptInput& input) {
   const std::string extension = std::filesystem::path(nameOrFile).extension().string();
-  if (extension == ".js") return runPipelineScript(nameOrFile, input);
-  if (extension == ".json") {
-    if (!input.params.empty())
-      return error(ErrorKind::Usage,
-                   "{}: 'script.{}' is set, but a JSON pipeline has no parameters of its own",
-                   nameOrFile, input.params.begin()->first);
-    LUCERNA_TRY(text, readText(nameOrFile));
-    LUCERNA_TRY(pipeline, graph::pipelineFromJson(text, nameOrFile));
-    if (pipeline.name.empty()) pipeline.name = std::filesystem::path(nameOrFile).stem().string();
+  if (extension == ".js" || extension == ".json") {
+    LUCERNA_TRY(pipeline, extension == ".js" ? runPipelineScript(nameOrFile, input)
+                                             : readPipelineJson(nameOrFile, input));
+    pipeline.folder = std::filesystem::path(nameOrFile).parent_path().string();
+    if (pipeline.folder.empty()) pipeline.folder = ".";
     return pipeline;
   }
   for (const EmbeddedText& file : shippedPipelines())

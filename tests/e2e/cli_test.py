@@ -158,6 +158,35 @@ class CliTest(unittest.TestCase):
         self.assert_fails(5, "passes/tone_map/tone_map.frag:2", "nonsense",
                           arguments=["render", ATRIUM, *SMALL, "-o", "a.png", "--shaders", "shaders"])
 
+    def test_faults_of_a_fullscreen_row_and_its_shader(self):
+        (self.folder / "sub").mkdir()
+        self.write("sub/own.glsl", "float half_() { return 0.5; }\n")
+        self.write("sub/a.frag", '#include "own.glsl"\nuniform float level = 1.0;  // 0 to 1: x\n'
+                   "uniform sampler2D color;\nlayout(location = 0) out vec4 made;\nvoid main() { made = vec4(level); }\n")
+        self.write("broken.frag", "void main() {\n  nonsense;\n}\n")
+        rows = 'pass("Cull"); pass("Forward"); pass("Fullscreen", {%s});'
+        good = self.write("sub/p.js", rows % 'shader: "a.frag", params: {level: 0.5}')
+        self.assert_ok(self.lucerna("pipeline", "check", "sub/p.js"))
+        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", good, "-o", "a.png"))
+        for arguments, *words in (
+                (["--set", "Fullscreen.levl=1"], "did you mean 'level'"),
+                (["--set", "Fullscreen.level=2"], "from 0 to 1"),
+                (["--set", "Fullscreen.reads.colr=Forward.color"], "did you mean 'color'")):
+            self.assert_fails(2, *words, arguments=["pipeline", "check", "sub/p.js", *arguments])
+        for text, *words in (
+                ('shader: "nowhere.frag"', "./sub/nowhere.frag: cannot be opened", "relative to the pipeline's file"),
+                ('shader: "a.frag", level: "much"', "WrongValueType", "'level'"),
+                ('shader: "a.frag", reads: {colr: "Forward.color"}', "did you mean 'color'")):
+            self.assert_fails(5, "p2.js:1", *words, arguments=[
+                "pipeline", "check", self.write("sub/p2.js", rows % text).relative_to(self.folder)])
+        # On the command line files are relative to the working directory.
+        self.write("sub/p2.js", rows % "")
+        self.assert_fails(5, "./broken.frag:2", "nonsense", arguments=[
+            "render", ATRIUM, *SMALL, "--pipeline", "sub/p2.js", "--set", "Fullscreen.shader=broken.frag", "-o", "b.png"])
+        show = self.lucerna("pass", "show", "Fullscreen", "--set", "shader=sub/a.frag", "--json")
+        self.assert_ok(show)
+        self.assertIn("level", [param["name"] for param in json.loads(show.stdout)["params"]])
+
     def test_a_driver_that_lacks_a_feature(self):
         caps = self.write("caps.json", '{"name": "poor", "features": [], "renderable": ["Rgba8Unorm"]}')
         run = self.lucerna("pipeline", "check", "deferred", "--caps", caps, "--json")
@@ -301,6 +330,15 @@ class CliTest(unittest.TestCase):
         for name in ("deferred", "forward", "gbuffer", "bvh"):
             self.assert_ok(self.lucerna("pipeline", "check", name))
             self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", name, "-o", f"{name}.png"))
+
+    def test_the_example_without_cpp_draws_what_its_page_says(self):
+        example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "edges" / "edges.js"
+        self.assert_ok(self.lucerna("pipeline", "check", example))
+        picture = ["render", ATRIUM, "--size", "160x90", "--pipeline", example]
+        self.assert_ok(self.lucerna(*picture, "-o", "edges.png"))
+        self.assert_ok(self.lucerna(*picture, "--set", "Edges.enabled=false", "-o", "plain.png"))
+        difference = self.lucerna("compare", "plain.png", "edges.png", "--json")
+        self.assertGreater(json.loads(difference.stdout)["flip"]["mean"], 0.02)
 
     def test_quiet_says_nothing(self):
         run = self.lucerna("render", ATRIUM, *SMALL, "-o", "a.png", "--quiet")

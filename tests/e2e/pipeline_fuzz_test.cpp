@@ -35,6 +35,7 @@ graph::Value randomValue(Random& random, const graph::ParamDescription& param) {
     case Type::Vector:
       return std::vector<double>(param.size, low + (high - low) * random.uniform());
     case Type::Text:
+    case Type::File:
       break;
   }
   return param.defaultValue;

@@ -28,9 +28,8 @@ gpu::Device* makeDevice() {
   // Kept until the process ends: eglTerminate leaks, and tests share the device.
   static auto context = gpu::Context::create();
   if (!context) stop(context.error());
-  static auto made = gpu::Device::create(**context);
+  static auto made = gpu::Device::create(**context, registry().shaders());
   if (!made) stop(made.error());
-  passes::registerShaders((*made)->shaderSources());
   return made->get();
 }
 
