@@ -45,6 +45,7 @@ Json portJson(const graph::PortDescription& port) {
       {"type", port.type.text()}, {"optional", port.optional},
       {"history", port.history},  {"persistent", port.persistent},
       {"halo", port.halo}};
+  if (!port.sameSizeAs.empty()) json["same_size_as"] = port.sameSizeAs;
   if (const std::string text = standInText(port.standIn); !text.empty())
     json["when_disabled"] = text;
   json["help"] = port.help;
@@ -79,9 +80,10 @@ std::string passText(const graph::PassDescription& pass) {
   if (!pass.features.empty()) text += fmt::format("Needs {}.\n", join(pass.features));
   text += "\nPorts\n";
   for (const graph::PortDescription& port : pass.ports) {
-    text +=
-        fmt::format("  {:20} {}, {}{}\n", port.name, kDirections[static_cast<int>(port.direction)],
-                    port.type.text(), port.optional ? ", optional" : "");
+    text += fmt::format(
+        "  {:20} {}, {}{}{}\n", port.name, kDirections[static_cast<int>(port.direction)],
+        port.type.text(), port.optional ? ", optional" : "",
+        port.sameSizeAs.empty() ? "" : fmt::format(", as large as '{}'", port.sameSizeAs));
     if (!port.help.empty()) text += fmt::format("  {:20} {}\n", "", port.help);
     if (const std::string standIn = standInText(port.standIn); !standIn.empty())
       text += fmt::format("  {:20} When the pass is disabled: {}.\n", "", standIn);

@@ -78,7 +78,9 @@ struct PortDescription {
                        // writes "color"; InOut is both
   Direction direction = Direction::In;
   PortType type{};
-  SizeRule size{};        // Out
+  SizeRule size{};  // Out
+  std::string
+      sameSizeAs{};       // In, InOut: the input whose size this one must have; "" if any will do
   StandIn standIn{};      // Out
   bool optional = false;  // In: may stay unbound. Out: not made when nobody reads it
   bool history = false;   // In: last frame's value of the port it is bound to; unbound after a cut

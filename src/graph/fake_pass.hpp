@@ -72,6 +72,9 @@ class FakePass final : public PassType {
   FakePass& scaled(float scale) {
     return last([&](auto& p) { p.size = {SizeRule::Kind::Output, "", scale}; });
   }
+  FakePass& sameSizeAs(std::string input) {
+    return last([&](auto& p) { p.sameSizeAs = input; });
+  }
   FakePass& size(int width, int height) {
     return last([&](auto& p) { p.size = {SizeRule::Kind::Absolute, "", 1, width, height}; });
   }

@@ -19,6 +19,8 @@ const char* nameOf(FaultKind kind) {
       return "TypeMismatch";
     case FaultKind::FormatMismatch:
       return "FormatMismatch";
+    case FaultKind::SizeMismatch:
+      return "SizeMismatch";
     case FaultKind::ReadBeforeWrite:
       return "ReadBeforeWrite";
     case FaultKind::ReadAfterUpdate:

@@ -12,6 +12,7 @@ enum class FaultKind {
   MissingInput,
   TypeMismatch,
   FormatMismatch,
+  SizeMismatch,
   ReadBeforeWrite,
   ReadAfterUpdate,  // of typed data, which cannot be copied to keep the older version
   Cycle,

@@ -38,6 +38,11 @@ PortBuilder& PortBuilder::size(int width, int height) {
   return *this;
 }
 
+PortBuilder& PortBuilder::sameSizeAs(std::string input) {
+  d_->sameSizeAs = std::move(input);
+  return *this;
+}
+
 PortBuilder& PortBuilder::whenDisabled(vec4 fill) {
   d_->standIn = {.kind = StandIn::Kind::Fill, .fill = fill};
   return *this;

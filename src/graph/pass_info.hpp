@@ -103,6 +103,7 @@ class PortBuilder {
   PortBuilder& sizeOf(std::string input, float scale = 1.f);
   PortBuilder& sizeOfOutput(float scale = 1.f);
   PortBuilder& size(int width, int height);
+  PortBuilder& sameSizeAs(std::string input);  // In, InOut: another size is a fault
   PortBuilder& whenDisabled(vec4 fill);
   PortBuilder& passesThrough(std::string input);  // when disabled
   PortBuilder& optional() {

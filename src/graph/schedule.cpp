@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
+
+#include "graph/size_relation.hpp"
 
 namespace lucerna::graph {
 namespace {
@@ -15,64 +16,9 @@ Key keyOf(const Source& source) {
   return {source.kind, source.row, source.port};
 }
 
-// Sizes of all outputs in pixels, following relations to the output of another row.
-class Sizes {
- public:
-  Sizes(const Plan& plan, uvec2 outputSize) : plan_(plan), outputSize_(outputSize) {}
-
-  uvec2 of(const Source& source) {
-    if (source.kind == Source::Kind::Output) return ofOutput(source.row, source.port);
-    if (source.kind != Source::Kind::Fill) return outputSize_;
-    if (source.size.kind == SizeRule::Kind::Port)
-      return scaled(ofOutput(source.sizeRow, source.size.port), source.size.scale);
-    return ofRule(source.size);
-  }
-
- private:
-  uvec2 ofOutput(std::size_t row, const std::string& port) {
-    // The first entry ends circles, which only history inputs can close: they get the output's
-    // size.
-    const auto [known, isNew] = sizes_.emplace(std::pair(row, port), outputSize_);
-    if (!isNew) return known->second;
-    const auto found = std::find_if(plan_.rows.begin(), plan_.rows.end(),
-                                    [&](const ResolvedRow& r) { return r.row == row; });
-    CHECK(found != plan_.rows.end(), "the size of row {} is asked for, which does not run", row);
-    const PortDescription* out = found->description.output(port);
-    const std::string& like = out->direction == Direction::InOut ? out->name : out->size.port;
-    uvec2 size = ofRule(out->size);
-    if (out->direction == Direction::InOut) {
-      size = of(found->input(like)->source);
-    } else if (out->size.kind == SizeRule::Kind::Port) {
-      const ResolvedInput* input = found->input(like);
-      CHECK(input, "{}: the size of '{}' follows an input '{}' that the pass does not have",
-            found->description.type, port, like);
-      size = scaled(of(input->source), out->size.scale);
-    }
-    return sizes_[{row, port}] = size;
-  }
-
-  uvec2 ofRule(const SizeRule& rule) const {
-    if (rule.kind == SizeRule::Kind::Absolute) return uvec2(rule.width, rule.height);
-    return scaled(outputSize_, rule.scale);
-  }
-
-  // Rounded up, so that no pixel is lost; a hair less first, as 0.1f * 10 is more than 1.
-  static uvec2 scaled(uvec2 size, float scale) {
-    const auto side = [scale](unsigned pixels) {
-      return std::max(1u, static_cast<unsigned>(
-                              std::ceil(static_cast<double>(pixels) * scale * (1 - 1e-7) - 1e-9)));
-    };
-    return uvec2(side(size.x), side(size.y));
-  }
-
-  const Plan& plan_;
-  uvec2 outputSize_;
-  std::map<std::pair<std::size_t, std::string>, uvec2> sizes_;
-};
-
 class Scheduler {
  public:
-  Scheduler(const Plan& plan, uvec2 outputSize) : plan_(plan), sizes_(plan, outputSize) {
+  Scheduler(const Plan& plan, uvec2 outputSize) : plan_(plan), sizes_(plan) {
     schedule_.outputSize = outputSize;
   }
 
@@ -139,6 +85,8 @@ class Scheduler {
     for (const Source& source : plan_.kept) keep(source);
   }
 
+  uvec2 pixelsOf(const Source& source) { return sizes_.of(source).inPixels(schedule_.outputSize); }
+
   std::size_t addVersion(Version version) {
     schedule_.versions.push_back(std::move(version));
     return schedule_.versions.size() - 1;
@@ -162,7 +110,7 @@ class Scheduler {
       const std::string name = fmt::format("{}.{}", plan_.rowNames[source->row], source->port);
       const std::size_t version = addVersion({.name = name,
                                               .type = source->type,
-                                              .texture = descOf(source->type, sizes_.of(*source)),
+                                              .texture = descOf(source->type, pixelsOf(*source)),
                                               .frequency = Frequency::PerScene,
                                               .standIn = true});
       versions_[key] = version;
@@ -198,7 +146,7 @@ class Scheduler {
     const auto reads = reads_.find(keyOf(source));
     return {.name = fmt::format("{}.{}", row.name, port.name),
             .type = type,
-            .texture = descOf(type, sizes_.of(source)),
+            .texture = descOf(type, pixelsOf(source)),
             .frequency = row.description.frequency,
             .history = reads != reads_.end() && reads->second.history,
             .persistent = port.persistent};
@@ -367,7 +315,7 @@ class Scheduler {
   }
 
   const Plan& plan_;
-  Sizes sizes_;
+  SizeRelations sizes_;
   Schedule schedule_;
   std::vector<std::size_t> rows_;  // indices in plan_.rows, in the order of running
   std::size_t order_ = 0;          // position in rows_ while steps are made

@@ -8,6 +8,7 @@
 
 #include "core/text.hpp"
 #include "graph/row_check.hpp"
+#include "graph/size_relation.hpp"
 #include "graph/wiring.hpp"
 
 namespace lucerna::graph {
@@ -18,6 +19,9 @@ bool isOutput(const PortDescription& port) {
 }
 bool isInput(const PortDescription& port) {
   return port.direction != Direction::Out;
+}
+bool isMade(const Source& source) {
+  return source.kind == Source::Kind::Output || source.kind == Source::Kind::Fill;
 }
 
 // Steps run by frequency, then in list order.
@@ -40,6 +44,7 @@ class Validator {
     for (std::size_t i = 0; i < pipeline_.passes.size(); ++i)
       if (pipeline_.passes[i].enabled && descriptions_[i]) resolveRow(i);
     checkOrder();
+    checkSizes();
     resolveOutputs(kept);
     cull();
     checkUpdates();
@@ -172,6 +177,28 @@ class Validator {
                                        input.source.port),
                   .wanted = "a pass that runs before this one",
                   .remedy = fmt::format("move '{}' before '{}'", maker, reader)});
+      }
+  }
+
+  void checkSizes() {
+    SizeRelations sizes(plan_);
+    for (const ResolvedRow& row : plan_.rows)
+      for (const ResolvedInput& input : row.inputs) {
+        const std::string& other = row.description.input(input.port)->sameSizeAs;
+        if (other.empty()) continue;
+        const ResolvedInput* like = row.input(other);
+        CHECK(like, "{}: '{}' must be as large as an input '{}' that the pass does not have",
+              row.description.type, input.port, other);
+        if (!isMade(input.source) || !isMade(like->source)) continue;
+        const SizeRelation found = sizes.of(input.source), wanted = sizes.of(like->source);
+        if (found == wanted) continue;
+        report(row.row, inputPlace(row.row, input.port),
+               {.kind = FaultKind::SizeMismatch,
+                .found = fmt::format("{}, of {}", sourceText(input.source), found.text()),
+                .wanted = fmt::format("the size of '{}', {}: {}", other, sourceText(like->source),
+                                      wanted.text()),
+                .remedy = "bind one of them to another value by \"reads\", or put a pass that "
+                          "scales it between"});
       }
   }
 

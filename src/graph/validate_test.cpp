@@ -180,6 +180,29 @@ TEST_F(Validate, FormatMismatch) {
   EXPECT_THAT(fault.wanted, HasSubstr("Rgba16Float"));
 }
 
+//    Light -> Half -> Over      (color: half the output's size)
+//    GBuffer ----------^        (depth: the output's)
+TEST_F(Validate, SizeMismatch) {
+  add(registry_, FakePass("Half")
+                     .in("color")
+                     .out("color", Format::Rgba16Float)
+                     .sizeOf("color", 0.5f)
+                     .repeats("color"));
+  add(registry_,
+      FakePass("HalfDepth").in("depth").out("depth", Format::Depth32F).sizeOf("depth", 0.5f));
+  add(registry_, FakePass("Over")
+                     .in("depth", Format::Depth32F)
+                     .inout("color", Format::Rgba16Float)
+                     .sameSizeAs("depth"));
+  const Fault fault =
+      only(check({"GBuffer", "Light", "Half", "Over", "Tone"}), FaultKind::SizeMismatch);
+  EXPECT_THAT(fault.place, HasSubstr("'Over', input 'color'"));
+  EXPECT_THAT(fault.found, HasSubstr("'Half.color', of 0.5 x the output's size"));
+  EXPECT_THAT(fault.wanted, HasSubstr("'GBuffer.depth': the output's size"));
+  EXPECT_TRUE(check({"GBuffer", "Light", "Half", "HalfDepth", "Over", "Tone"}).ok());
+  EXPECT_TRUE(check({"GBuffer", "Light", FakeRow("Half").off(), "Over", "Tone"}).ok());
+}
+
 //    Ao <------+ depth, named by `reads`
 //    GBuffer --+
 TEST_F(Validate, ReadBeforeWrite) {

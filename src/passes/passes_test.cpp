@@ -113,6 +113,14 @@ TEST(ShippedRows, InAnOrderThatReadsBeforeWritingAreRefused) {
   EXPECT_FALSE(validation.ok());
 }
 
+TEST(ShippedRows, ThatDrawOverAPictureWantItsDepthBufferAsLarge) {
+  graph::Pipeline pipeline =
+      rows({"Cull", "GBuffer", "Lighting", "Fullscreen", "Transparency", "ToneMap"});
+  EXPECT_TRUE(validated(pipeline).ok());
+  pipeline.passes[3].params["outputScale"] = 0.5;
+  EXPECT_THAT(validated(pipeline).text(), ::testing::HasSubstr("SizeMismatch"));
+}
+
 TEST(ShippedRows, ShowTheHierarchyBeforeOrAfterToneMapping) {
   EXPECT_TRUE(validated(rows({"Cull", "GBuffer", "Lighting", "ShowBvh", "ToneMap"})).ok());
   EXPECT_TRUE(validated(rows({"Cull", "GBuffer", "Lighting", "ToneMap", "ShowBvh"})).ok());

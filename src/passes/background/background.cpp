@@ -23,7 +23,10 @@ void Background::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
       .help("Reversed depth: the background shows where it is 0.");
-  d.update("color", &Ports::color).texture(Format::Rgba16Float).help("Linear radiance.");
+  d.update("color", &Ports::color)
+      .texture(Format::Rgba16Float)
+      .sameSizeAs("depth")
+      .help("Linear radiance.");
 }
 
 Background::Background(gpu::Device& device)

@@ -133,9 +133,10 @@ class Describer {
       return fault(block.place, fmt::format("the block '{}'", block.name),
                    fmt::format("uniforms, samplers and {} of render/view.glsl", kViewBlock),
                    "a pass in C++ can bind other blocks: docs/dev/adding_a_pass.md");
-    d_.ports.push_back({.name = kViewPort,
-                        .type = graph::dataPortType<render::ViewData>(),
-                        .help = "The view that is drawn, as the block ViewBlock."});
+    graph::PortDescription& port = d_.ports.emplace_back();
+    port.name = kViewPort;
+    port.type = graph::dataPortType<render::ViewData>();
+    port.help = "The view that is drawn, as the block ViewBlock.";
   }
 
   FullscreenRow& row_;
@@ -144,14 +145,15 @@ class Describer {
 };
 
 void addOutput(FullscreenRow& row) {
-  graph::PortDescription port{.name = "color",
-                              .direction = graph::Direction::Out,
-                              .size = {.scale = row.params.outputScale},
-                              .standIn = {.kind = graph::StandIn::Kind::Fill},
-                              .help = "What the shader writes."};
+  graph::PortDescription port;
+  port.name = "color";
+  port.direction = graph::Direction::Out;
   port.type.texture = graph::TextureSpec{.formats = {*gpu::formatFromName(row.params.format)}};
+  port.size.scale = row.params.outputScale;
+  port.standIn.kind = graph::StandIn::Kind::Fill;
   if (row.description.input("color"))
     port.standIn = {.kind = graph::StandIn::Kind::PassThrough, .input = "color"};
+  port.help = "What the shader writes.";
   row.description.ports.push_back(std::move(port));
 }
 

@@ -12,15 +12,24 @@ void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("depth", &Ports::depth).texture(Format::Depth32F).help("Reversed depth.");
   d.read("normal", &Ports::normal)
       .texture(Format::Rg16Unorm)
+      .sameSizeAs("depth")
       .help("View-space normal, octahedral.");
-  d.read("albedo", &Ports::albedo).texture(Format::Srgb8Alpha8).help("Diffuse or base colour.");
+  d.read("albedo", &Ports::albedo)
+      .texture(Format::Srgb8Alpha8)
+      .sameSizeAs("depth")
+      .help("Diffuse or base colour.");
   d.read("specular", &Ports::specular)
       .texture(Format::Srgb8Alpha8)
+      .sameSizeAs("depth")
       .help("Phong specular and occlusion of ambient light.");
   d.read("material", &Ports::material)
       .texture(Format::Rgba8Uint)
+      .sameSizeAs("depth")
       .help("Type, shininess or roughness, metallic.");
-  d.read("emissive", &Ports::emissive).texture(Format::R11G11B10Float).help("Radiance.");
+  d.read("emissive", &Ports::emissive)
+      .texture(Format::R11G11B10Float)
+      .sameSizeAs("depth")
+      .help("Radiance.");
   d.write("color", &Ports::color)
       .texture(Format::Rgba16Float)
       .sizeOf("depth")

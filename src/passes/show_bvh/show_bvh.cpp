@@ -24,6 +24,7 @@ void ShowBvh::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Reversed depth of the surfaces that hide lines.");
   d.update("color", &Ports::color)
       .texture(Format::Rgba16Float, Format::Rgba8Unorm)
+      .sameSizeAs("depth")
       .help("The picture, before or after ToneMap.");
 }
 

@@ -18,7 +18,10 @@ void Transparency::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
       .help("Reversed depth of the opaque surfaces, which hide what lies behind.");
-  d.update("color", &Ports::color).texture(Format::Rgba16Float).help("Linear radiance.");
+  d.update("color", &Ports::color)
+      .texture(Format::Rgba16Float)
+      .sameSizeAs("depth")
+      .help("Linear radiance.");
 }
 
 Transparency::Transparency(gpu::Device& device)
