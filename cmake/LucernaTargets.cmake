@@ -12,17 +12,24 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   # libstdc++ 12's own std::stable_sort calls what it deprecates.
   target_compile_options(lucerna_options INTERFACE -Wno-deprecated-declarations)
 endif()
+set(sanitizers_address address,undefined)
+set(sanitizers_thread thread)
+set(sanitizers_fuzzer fuzzer-no-link,address,undefined,float-cast-overflow)
 if(LUCERNA_SANITIZE)
+  set(sanitizers ${sanitizers_${LUCERNA_SANITIZE}})
+  if(NOT sanitizers)
+    message(FATAL_ERROR "LUCERNA_SANITIZE is '${LUCERNA_SANITIZE}'; wanted address, thread or fuzzer")
+  endif()
   # Line tables alone, and no check of null pointers (the address sanitizer sees their use): this
   # compiles in about half the time. Without -g1 a debugger shows locals too.
   target_compile_options(lucerna_options INTERFACE
-    -g1 -O1 -fsanitize=address,undefined -fno-sanitize=null -fno-sanitize-recover=undefined
+    -g1 -O1 -fsanitize=${sanitizers} -fno-sanitize=null -fno-sanitize-recover=all
     -fno-omit-frame-pointer)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # False under sanitizers, as GCC's manual says of -fsanitize; the release build still asks.
     target_compile_options(lucerna_options INTERFACE -Wno-maybe-uninitialized)
   endif()
-  target_link_options(lucerna_options INTERFACE -fsanitize=address,undefined)
+  target_link_options(lucerna_options INTERFACE -fsanitize=${sanitizers})
 endif()
 
 # lucerna_library(NAME SOURCES ... [DEPENDS public targets] [PRIVATE private targets] [SHADERS files])

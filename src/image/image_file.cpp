@@ -116,11 +116,16 @@ Status writeExr(const std::filesystem::path& path, const std::vector<ExrLayer>& 
   return writeFile(path, bytes);
 }
 
+Result<std::vector<ExrLayer>> decodeExrLayers(std::span<const std::byte> bytes,
+                                              const std::string& name, const ImageLimits& limits) {
+  LUCERNA_TRY(header, codec::kExr.readHeader(bytes, name));
+  LUCERNA_TRY_VOID(checkSize(header, bytes, name, limits));
+  return codec::decodeExrLayers(bytes, name);
+}
+
 Result<std::vector<ExrLayer>> readExrLayers(const std::filesystem::path& path) {
   LUCERNA_TRY(bytes, readFile(path));
-  LUCERNA_TRY(header, codec::kExr.readHeader(bytes, path.string()));
-  LUCERNA_TRY_VOID(checkSize(header, bytes, path.string(), {}));
-  return codec::decodeExrLayers(bytes, path.string());
+  return decodeExrLayers(bytes, path.string());
 }
 
 }  // namespace lucerna

@@ -50,6 +50,9 @@ struct ExrLayer {
   Image image;   // F32 or Half; all layers have the same size
 };
 Status writeExr(const std::filesystem::path& path, const std::vector<ExrLayer>& layers);
+Result<std::vector<ExrLayer>> decodeExrLayers(std::span<const std::byte> bytes,
+                                              const std::string& name,
+                                              const ImageLimits& limits = {});
 Result<std::vector<ExrLayer>> readExrLayers(const std::filesystem::path& path);
 
 }  // namespace lucerna

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/result.hpp"
+#include "scene/outside_files.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
@@ -21,6 +22,8 @@ struct SceneLoad {
   // What was included, by path or built-in name. Its warnings have been passed on.
   std::map<std::string, Result<Scene>> included;
   std::uint64_t repeatedBytes = 0;  // of scenes that were included again
+  // Refuse: scenes to include must stand in `included`, built-in ones too.
+  OutsideFiles outsideFiles = OutsideFiles::Read;
 };
 
 // loadScene() without complete(); meshes and textures are in `load`.

@@ -68,6 +68,10 @@ Scene* includedScene(const JsonValue& file, const std::string& name, const fs::p
                            bytesText(kMaxRepeatedBytes)));
     return nullptr;
   }
+  if (load.outsideFiles == OutsideFiles::Refuse) {
+    file.wrong("nothing: no other scene may be read here");
+    return nullptr;
+  }
   if (load.included.size() >= kMaxFiles) {
     file.fault(fmt::format("more than {} different scenes are included", kMaxFiles));
     return nullptr;
@@ -126,8 +130,7 @@ void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoa
   if (root.has("lightSettings")) readLightSettings(root.at("lightSettings"), scene);
   if (root.has("lights")) readLights(root.at("lights"), scene);
   if (root.has("cameras")) readCameras(root.at("cameras"), scene);
-  if (root.has("background"))
-    readBackground(root.at("background"), folder, load.textures, scene.background);
+  if (root.has("background")) readBackground(root.at("background"), folder, load, scene.background);
   root.read("ambient", scene.ambient, kNotNegative);
   root.read("exposure", scene.exposure, {-30.f, 30.f, "EV"});
 }
@@ -136,6 +139,10 @@ void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoa
 
 Status addSceneJson(Scene& scene, const fs::path& path, SceneLoad& load) {
   LUCERNA_TRY(text, readText(path));
+  return addSceneJson(scene, path, text, load);
+}
+
+Status addSceneJson(Scene& scene, const fs::path& path, const std::string& text, SceneLoad& load) {
   LUCERNA_TRY(document, JsonDocument::parse(text, path.string(), ErrorKind::Input));
   LUCERNA_TRY_VOID(enter(path, load));
   apply(document.root(), path.parent_path(), scene, load);

@@ -14,6 +14,10 @@ namespace lucerna::scene {
 // and light settings by name, then new lights, cameras and settings. The error lists every fault,
 // one a line.
 Status addSceneJson(Scene& scene, const std::filesystem::path& path, SceneLoad& load);
+// The same for the file's text. `path` stands for it in messages and says where the files lie that
+// it names.
+Status addSceneJson(Scene& scene, const std::filesystem::path& path, const std::string& text,
+                    SceneLoad& load);
 
 // "near" and "far" of a camera, m; 0 or absent: chosen from the scene. Reports and returns false if
 // far does not lie behind near.

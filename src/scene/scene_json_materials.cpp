@@ -29,9 +29,13 @@ void readMaterial(const JsonValue& from, Material& material) {
 }
 
 std::uint32_t addPicture(const JsonValue& value, const std::filesystem::path& folder,
-                         std::vector<Texture>& textures) {
+                         SceneLoad& load) {
   std::string name;
   if (!value.text(name)) return kNone;
+  if (load.outsideFiles == OutsideFiles::Refuse) {
+    value.wrong("nothing: no other file may be read here");
+    return kNone;
+  }
   TextureStore store;
   store.addFile(folder / name);
   std::vector<std::string> problems;
@@ -41,8 +45,8 @@ std::uint32_t addPicture(const JsonValue& value, const std::filesystem::path& fo
   for (const std::string& problem : problems)
     value.fault(problem + "; wanted a picture (PNG, JPEG, TGA, BMP, HDR or EXR)");
   texture.wrapS = texture.wrapT = Wrap::ClampToEdge;
-  textures.push_back(std::move(texture));
-  return static_cast<std::uint32_t>(textures.size() - 1);
+  load.textures.push_back(std::move(texture));
+  return static_cast<std::uint32_t>(load.textures.size() - 1);
 }
 
 }  // namespace
@@ -64,26 +68,26 @@ void readMaterials(const JsonValue& materials, Scene& scene) {
   }
 }
 
-void readBackground(const JsonValue& from, const std::filesystem::path& folder,
-                    std::vector<Texture>& textures, Background& background) {
+void readBackground(const JsonValue& from, const std::filesystem::path& folder, SceneLoad& load,
+                    Background& background) {
   if (!from.object({"color", "image", "faces", "intensity"})) return;
   if (from.has("image") && from.has("faces"))
     return from.wrong("both \"image\" and \"faces\"", "one of them");
   if (from.read("color", background.color, kNotNegative)) background.kind = BackgroundKind::Color;
   from.read("intensity", background.intensity, kNotNegative);
   if (from.has("image")) {
-    background.texture = addPicture(from.at("image"), folder, textures);
+    background.texture = addPicture(from.at("image"), folder, load);
     if (background.texture != kNone) background.kind = BackgroundKind::Image;
   }
   if (!from.has("faces")) return;
   const std::vector<JsonValue> faces = from.at("faces").elements();
   if (faces.size() != 6) return from.at("faces").wrong("six pictures: +x, -x, +y, -y, +z, -z");
   std::array<std::uint32_t, 6> sides{};
-  for (std::size_t i = 0; i < 6; ++i) sides[i] = addPicture(faces[i], folder, textures);
+  for (std::size_t i = 0; i < 6; ++i) sides[i] = addPicture(faces[i], folder, load);
   if (std::find(sides.begin(), sides.end(), kNone) != sides.end()) return;
-  const Image& first = *textures[sides[0]].image;
+  const Image& first = *load.textures[sides[0]].image;
   for (std::size_t i = 0; i < 6; ++i) {
-    const Image& image = *textures[sides[i]].image;
+    const Image& image = *load.textures[sides[i]].image;
     if (image.width() != image.height() || image.width() != first.width())
       return faces[i].wrong(fmt::format("a picture of {} x {}", image.width(), image.height()),
                             "six squares of one size");

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/json_value.hpp"
+#include "scene/load_parts.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
@@ -13,8 +14,8 @@ void readMaterials(const JsonValue& materials, Scene& scene);
 void readLights(const JsonValue& lights, Scene& scene);
 void readLightSettings(const JsonValue& settings, Scene& scene);
 void readCameras(const JsonValue& cameras, Scene& scene);
-// Pictures go to `textures`, which the background's indices mean.
-void readBackground(const JsonValue& from, const std::filesystem::path& folder,
-                    std::vector<Texture>& textures, Background& background);
+// Pictures go to the textures of `load`, which the background's indices mean.
+void readBackground(const JsonValue& from, const std::filesystem::path& folder, SceneLoad& load,
+                    Background& background);
 
 }  // namespace lucerna::scene

@@ -140,6 +140,10 @@ std::optional<Bytes> decodeDataUri(const std::string& uri, const Place& place) {
 std::filesystem::path resolveUri(const Document& document, const Place& uri) {
   const std::string& text = uri.text();
   if (text.empty()) uri.refuse("a relative file name");
+  if (document.outsideFiles == OutsideFiles::Refuse) {
+    fail(uri.pointer(), "\"" + text + "\"", "data inside this file",
+         "no other file may be read here");
+  }
   if (text.find("://") != std::string::npos) {
     fail(uri.pointer(), "\"" + text + "\"", "a relative file name",
          "save what it points to beside the scene and name that file");

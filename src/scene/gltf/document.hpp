@@ -10,6 +10,7 @@
 
 #include "core/file.hpp"
 #include "scene/gltf/place.hpp"
+#include "scene/outside_files.hpp"
 
 namespace lucerna::scene::gltf {
 
@@ -21,6 +22,7 @@ struct BufferView {
 
 struct Document {
   std::filesystem::path path;
+  OutsideFiles outsideFiles = OutsideFiles::Read;
   Bytes file;  // of a .glb
   Json json;
   std::span<const std::byte> binary;  // the BIN chunk, in `file`
@@ -52,7 +54,8 @@ void readBuffers(Document& document);
 
 // "data:MEDIATYPE;base64,..." gives its bytes; nothing if the text is no data URI. Throws Fault.
 std::optional<Bytes> decodeDataUri(const std::string& uri, const Place& place);
-// The file that a relative URI names: percent-decoded, in the folder of the document.
+// The file that a relative URI names: percent-decoded, in the folder of the document. Throws Fault,
+// also where the document may read no other file.
 std::filesystem::path resolveUri(const Document& document, const Place& uri);
 
 }  // namespace lucerna::scene::gltf

@@ -1,17 +1,22 @@
 #include "scene/gltf/gltf_reader.hpp"
 
-#include "core/file.hpp"
 #include "scene/gltf/convert.hpp"
 
 namespace lucerna::scene {
 
 Result<Scene> readGltf(const std::filesystem::path& path) {
-  LUCERNA_TRY(file, readFile(path));
+  LUCERNA_TRY(content, readFile(path));
+  return readGltf(path, std::move(content), OutsideFiles::Read);
+}
+
+Result<Scene> readGltf(const std::filesystem::path& path, Bytes content,
+                       OutsideFiles outsideFiles) {
   gltf::Document document;
+  document.outsideFiles = outsideFiles;
   Scene scene;
   scene.name = path.stem().string();
   try {
-    gltf::openDocument(document, path, std::move(file));
+    gltf::openDocument(document, path, std::move(content));
     gltf::readBuffers(document);
     gltf::Context context{document, gltf::readAccessors(document), scene, {}, {}};
     gltf::readMaterials(context);

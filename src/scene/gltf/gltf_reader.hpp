@@ -3,7 +3,9 @@
 
 #include <filesystem>
 
+#include "core/file.hpp"
 #include "core/result.hpp"
+#include "scene/outside_files.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
@@ -13,5 +15,8 @@ namespace lucerna::scene {
 // an error that names the place in the JSON, what was found, what was wanted and the next step.
 // updateTransforms() and complete() are left to the caller.
 Result<Scene> readGltf(const std::filesystem::path& path);
+// The same for the file's content. `path` stands for it in messages and says where the files lie
+// that it names.
+Result<Scene> readGltf(const std::filesystem::path& path, Bytes content, OutsideFiles outsideFiles);
 
 }  // namespace lucerna::scene
