@@ -18,7 +18,8 @@ set(sanitizers_fuzzer fuzzer-no-link,address,undefined,float-cast-overflow)
 if(LUCERNA_SANITIZE)
   set(sanitizers ${sanitizers_${LUCERNA_SANITIZE}})
   if(NOT sanitizers)
-    message(FATAL_ERROR "LUCERNA_SANITIZE is '${LUCERNA_SANITIZE}'; wanted address, thread or fuzzer")
+    message(FATAL_ERROR "LUCERNA_SANITIZE is '${LUCERNA_SANITIZE}'; wanted address, thread or "
+      "fuzzer. If it was set before these were its values: cmake --preset dev")
   endif()
   # Line tables alone, and no check of null pointers (the address sanitizer sees their use): this
   # compiles in about half the time. Without -g1 a debugger shows locals too.
