@@ -160,8 +160,9 @@ TEST_F(SceneJson, AllFaultsAreReportedAtOnceWithLineAndPlace) {
   })");
   EXPECT_THAT(faults, HasSubstr("s.json:4: /materials/paintt: the scene has no material 'paintt' "
                                 "(did you mean 'paint'?)"));
-  EXPECT_THAT(faults, HasSubstr("/materials/paint/shinyness: found the unknown key 'shinyness' (did you "
-                                "mean 'shininess'?)"));
+  EXPECT_THAT(faults,
+              HasSubstr("/materials/paint/shinyness: found the unknown key 'shinyness' (did you "
+                        "mean 'shininess'?)"));
   EXPECT_THAT(faults, HasSubstr("s.json:6: /lights/0/kind: found \"pointy\", wanted one of "
                                 "directional, point, spot (did you mean 'point'?)"));
   EXPECT_THAT(faults, HasSubstr("s.json:7: /lights/1: found no \"position\""));
