@@ -43,7 +43,7 @@ std::string describeExtra(const CLI::App& app, const std::string& word) {
 
 // What CLI11 found, without its jargon.
 std::string describeFault(const CLI::ParseError& fault) {
-  const std::string text = fault.what();  // "--size: 1 required TEXT missing"
+  std::string text = fault.what();  // "--size: 1 required TEXT missing"
   if (!dynamic_cast<const CLI::ArgumentMismatch*>(&fault)) return text;
   const std::string option = text.substr(0, text.find(": "));
   return text.ends_with("missing") ? option + ": found nothing after it, wanted a value"

@@ -210,8 +210,8 @@ Result<ParsedJson> parseJson(std::string_view text, const std::string& file, Err
   if (text.find_first_not_of(" \t\r\n") == text.npos)
     return error(kind, "{}: is empty, wanted a JSON object", file);
   Builder builder(text);
-  const Tracked begin(text.data(), builder.reached()),
-      end(text.data() + text.size(), builder.reached());
+  const char* const first = text.data();
+  const Tracked begin(first, builder.reached()), end(first + text.size(), builder.reached());
   if (!Library::sax_parse(begin, end, &builder, Library::input_format_t::json, /*strict=*/true,
                           /*ignore_comments=*/true))
     return error(kind, "{}: {}", placeOf(text, builder.stoppedAt(), file),
