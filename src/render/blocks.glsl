@@ -23,14 +23,15 @@ struct MaterialValues {
   vec4 albedo;         // linear; a: opacity
   vec4 emissive;       // rgb: linear radiance; w: normal map scale
   vec4 transmission;   // rgb: colour let through; w: alpha cutoff
-  vec4 specular;       // rgb: Phong specular, linear; w: Phong exponent
+  vec4 specular;       // rgb: specular, linear; w: Phong exponent
   vec4 surface;        // metallic, roughness, occlusion strength, material type (render/gbuffer.glsl)
   TextureUse albedoUse;
   TextureUse emissiveUse;
   TextureUse normalUse;
   TextureUse metallicRoughnessUse;
   TextureUse occlusionUse;
-  vec4 unused;         // to the alignment of blocks, 256 bytes
+  TextureUse specularUse;
+  vec4 unused[15];     // to the alignment of blocks, 256 bytes
 };
 
 // Element of the storage block ObjectBlock (render/scene.glsl).

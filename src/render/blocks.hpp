@@ -16,7 +16,7 @@ using glm::vec4;
 static_assert(sizeof(ViewValues) == 4 * 64 + 2 * 16);
 static_assert(offsetof(ViewValues, eyeW) == 256);
 static_assert(sizeof(TextureUse) == 32);
-static_assert(sizeof(MaterialValues) == 256);
+static_assert(sizeof(MaterialValues) == 512);
 static_assert(offsetof(MaterialValues, albedoUse) == 80);
 static_assert(sizeof(ObjectValues) == 64 + 4 * 16);
 static_assert(sizeof(LightValues) == 5 * 16);

@@ -25,13 +25,17 @@ void bindTextures(gpu::Rendering& rendering, const GpuScene& gpuScene,
   bindSlot(rendering, gpuScene, "metallicRoughnessTexture", material.metallicRoughnessTexture,
            true);
   bindSlot(rendering, gpuScene, "occlusionTexture", material.occlusionTexture, true);
+  bindSlot(rendering, gpuScene, "specularTexture", material.specularTexture, false);
+}
+
+std::uint32_t cornersOf(gpu::Topology topology) {
+  return topology == gpu::Topology::Triangles ? 3 : topology == gpu::Topology::Lines ? 2 : 1;
 }
 
 }  // namespace
 
 void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
   list.batches.clear();
-  list.triangles = 0;
   std::vector<gpu::IndexedDrawCommand> commands;
   commands.reserve(list.objects.size());
   for (const std::uint32_t index : list.objects) {
@@ -39,14 +43,14 @@ void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
     const MeshRange& mesh = gpuScene.meshes[object.mesh];
     const bool mirrored = gpuScene.mirrored[index];
     if (list.batches.empty() || list.batches.back().material != object.material ||
-        list.batches.back().mirrored != mirrored)
+        list.batches.back().mirrored != mirrored || list.batches.back().topology != mesh.topology)
       list.batches.push_back({.material = object.material,
                               .mirrored = mirrored,
+                              .topology = mesh.topology,
                               .firstCommand = static_cast<std::uint32_t>(commands.size())});
     DrawBatch& batch = list.batches.back();
     ++batch.commandCount;
-    batch.triangles += mesh.indexCount / 3;
-    list.triangles += mesh.indexCount / 3;
+    batch.primitives += mesh.indexCount / cornersOf(mesh.topology);
     commands.push_back({.indexCount = mesh.indexCount,
                         .instanceCount = 1,
                         .firstIndex = mesh.firstIndex,
@@ -64,6 +68,7 @@ void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawLis
     const scene::Material& material = gpuScene.scene->materials[batch.material];
     state.cull = cullBackFaces && !material.doubleSided ? gpu::Cull::Back : gpu::Cull::None;
     state.frontIsClockwise = batch.mirrored;
+    state.topology = batch.topology;
     rendering.use(program, state);
     rendering.buffer("ObjectBlock", gpuScene.objects);
     rendering.buffer("MaterialBlock", gpuScene.materials,
@@ -72,7 +77,7 @@ void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawLis
     rendering.buffer("ViewBlock", view);
     bindTextures(rendering, gpuScene, material);
     rendering.multiDraw(gpuScene.input, list.commands, batch.firstCommand, batch.commandCount,
-                        batch.triangles);
+                        batch.primitives);
   }
 }
 

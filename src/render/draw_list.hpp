@@ -14,15 +14,15 @@ namespace lucerna::render {
 struct DrawBatch {
   std::uint32_t material = 0;  // index in Scene::materials
   bool mirrored = false;       // front faces are clockwise
+  gpu::Topology topology = gpu::Topology::Triangles;
   std::uint32_t firstCommand = 0, commandCount = 0;
-  std::uint64_t triangles = 0;
+  std::uint64_t primitives = 0;
 };
 
 struct DrawList {
   std::vector<std::uint32_t> objects;  // in drawing order
   std::vector<DrawBatch> batches;
-  gpu::Buffer commands;         // gpu::IndexedDrawCommand, one an object
-  std::uint64_t triangles = 0;  // of all batches
+  gpu::Buffer commands;  // gpu::IndexedDrawCommand, one an object
 };
 
 struct DrawLists {

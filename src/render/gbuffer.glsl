@@ -1,7 +1,8 @@
 // The G-buffer's layout: what GBuffer writes and everyone else reads.
 //   normal    Rg16Unorm       view space, octahedral
 //   albedo    Srgb8Alpha8     rgb albedo, a 1
-//   specular  Srgb8Alpha8     rgb Phong specular, a occlusion of ambient light (linear)
+//   specular  Srgb8Alpha8     rgb specular of Phong and specular-glossiness, a occlusion of ambient
+//                             light (linear)
 //   material  Rgba8Uint       r type, g shininess 0..255 (Phong) or roughness, b metallic, a 0
 //   emissive  R11G11B10Float  radiance
 #include "render/normal_encoding.glsl"

@@ -43,20 +43,40 @@ blocks::TextureUse textureUse(const scene::TextureSlot& slot) {
           .offset = vec4(slot.offset, slot.texCoord == 1 ? 1.f : 0.f, slot.used() ? 1.f : 0.f)};
 }
 
+// As render/surface.glsl numbers them.
+float materialType(scene::MaterialModel model) {
+  switch (model) {
+    case scene::MaterialModel::Phong:
+      return 1.f;
+    case scene::MaterialModel::MetallicRoughness:
+      return 2.f;
+    case scene::MaterialModel::Unlit:
+      return 4.f;
+    case scene::MaterialModel::SpecularGlossiness:
+      return 5.f;
+  }
+  return 0.f;
+}
+
+// What the model ignores is 0, or 1 for roughness.
 blocks::MaterialValues materialValues(const scene::Material& m) {
-  const bool phong = m.model == scene::MaterialModel::Phong;
+  using Model = scene::MaterialModel;
+  const bool lit = m.model != Model::Unlit;
+  const bool rough = m.model == Model::MetallicRoughness || m.model == Model::SpecularGlossiness;
+  const bool specular = m.model == Model::Phong || m.model == Model::SpecularGlossiness;
   return {.albedo = m.albedo,
-          .emissive = vec4(m.emissive, m.normalScale),
+          .emissive = vec4(lit ? m.emissive : vec3(0.f), m.normalScale),
           .transmission = vec4(m.transmission, m.alphaCutoff),
-          .specular = vec4(phong ? m.specular : vec3(0.f), m.shininess),
-          .surface = vec4(phong ? 0.f : m.metallic, phong ? 1.f : m.roughness, m.occlusionStrength,
-                          phong ? 1.f : 2.f),
+          .specular = vec4(specular ? m.specular : vec3(0.f), m.shininess),
+          .surface = vec4(m.model == Model::MetallicRoughness ? m.metallic : 0.f,
+                          rough ? m.roughness : 1.f, m.occlusionStrength, materialType(m.model)),
           .albedoUse = textureUse(m.albedoTexture),
           .emissiveUse = textureUse(m.emissiveTexture),
           .normalUse = textureUse(m.normalTexture),
           .metallicRoughnessUse = textureUse(m.metallicRoughnessTexture),
           .occlusionUse = textureUse(m.occlusionTexture),
-          .unused = vec4(0.f)};
+          .specularUse = textureUse(m.specularTexture),
+          .unused = {}};
 }
 
 // Blocks of no elements cannot be bound: there is always one.

@@ -24,6 +24,7 @@ struct SceneChanges {
 };
 
 struct MeshRange {
+  gpu::Topology topology = gpu::Topology::Triangles;
   std::uint32_t firstIndex = 0, indexCount = 0;
   std::int32_t baseVertex = 0;
 };

@@ -15,6 +15,7 @@ uniform sampler2D emissiveTexture;
 uniform sampler2D normalTexture;
 uniform sampler2D metallicRoughnessTexture;
 uniform sampler2D occlusionTexture;
+uniform sampler2D specularTexture;
 
 vec2 texCoordOf(TextureUse use) {
   vec2 uv = use.offset.z > 0.5 ? texCoords.zw : texCoords.xy;
@@ -30,8 +31,12 @@ vec4 materialColor() {
   return material.albedo * vertexColor * sampled(albedoTexture, material.albedoUse);
 }
 
-// The shading normal on the side that is seen.
+// Lines and points without normals show their colour as it is.
+bool hasNormal() { return dot(normalW, normalW) > 0.0; }
+
+// The shading normal on the side that is seen; towards the eye where there is none.
 vec3 shadingNormalW() {
+  if (!hasNormal()) return toEyeFrom(positionW);
   vec3 n = normalize(normalW);
   vec3 normalT = material.normalUse.offset.w > 0.5
                      ? texture(normalTexture, texCoordOf(material.normalUse)).xyz * 2.0 - 1.0
@@ -50,9 +55,15 @@ vec3 shadingNormalW() {
   return gl_FrontFacing ? n : -n;
 }
 
+// The reflectance at normal incidence takes its share before the diffuse albedo does.
+void readSpecularGlossiness(vec4 specularTexel, inout Surface s) {
+  s.roughness = 1.0 - (1.0 - material.surface.y) * specularTexel.a;
+  s.albedo *= max(1.0 - max(max(s.specular.r, s.specular.g), s.specular.b), 0.0);
+}
+
 Surface surfaceOf(vec4 baseColor) {
   Surface s;
-  s.type = uint(material.surface.w);
+  s.type = hasNormal() ? uint(material.surface.w) : kTypeUnlit;
   s.positionW = positionW;
   s.normalW = shadingNormalW();
   s.toEyeW = toEyeFrom(positionW);
@@ -60,10 +71,12 @@ Surface surfaceOf(vec4 baseColor) {
   s.emissive = material.emissive.rgb * sampled(emissiveTexture, material.emissiveUse).rgb;
   float occlusion = sampled(occlusionTexture, material.occlusionUse).r;
   s.occlusion = 1.0 + material.surface.z * (occlusion - 1.0);
-  s.specular = material.specular.rgb;
+  vec4 specular = sampled(specularTexture, material.specularUse);
+  s.specular = material.specular.rgb * specular.rgb;
   s.shininess = material.specular.w;
   vec4 metallicRoughness = sampled(metallicRoughnessTexture, material.metallicRoughnessUse);
   s.metallic = material.surface.x * metallicRoughness.b;
   s.roughness = material.surface.y * metallicRoughness.g;
+  if (s.type == kTypeSpecularGlossiness) readSpecularGlossiness(specular, s);
   return s;
 }

@@ -19,6 +19,7 @@ vec3 reflectedPhong(Surface s, vec3 toLightW, float cosLight) {
 //   metallic-roughness  ((1 - F)(1 - metallic) albedo / pi + D V F) (n.l)
 // D: Trowbridge-Reitz; V: Smith, height-correlated (Heitz, JCGT 3(2), 2014, eq. 99, over 4 n.l n.v);
 // F: Schlick 1994; the mix of both lobes as in glTF 2.0 appendix B. Alpha is roughness squared.
+// Specular-glossiness differs in F0, which it states, and is never metallic.
 vec3 reflectedMetallicRoughness(Surface s, vec3 toLightW, float cosLight) {
   float roughness = max(s.roughness, kLowestRoughness);
   float alpha = roughness * roughness;
@@ -34,7 +35,8 @@ vec3 reflectedMetallicRoughness(Surface s, vec3 toLightW, float cosLight) {
   float distribution = alpha2 / (kPi * spread * spread);
   float visibility = 0.5 / (cosLight * sqrt(cosEye * cosEye * (1.0 - alpha2) + alpha2) +
                             cosEye * sqrt(cosLight * cosLight * (1.0 - alpha2) + alpha2));
-  vec3 f0 = mix(vec3(0.04), s.albedo, s.metallic);
+  vec3 f0 = s.type == kTypeSpecularGlossiness ? s.specular
+                                              : mix(vec3(0.04), s.albedo, s.metallic);
   float x = 1.0 - cosDifference;
   vec3 fresnel = f0 + (1.0 - f0) * (x * x * x * x * x);
 
@@ -52,11 +54,17 @@ vec3 reflectedLight(Surface s, uint lightIndex) {
   return reflectance * light.irradiance;
 }
 
+// There is no environment to reflect yet: what would be reflected as highlight counts as diffuse.
+vec3 ambientReflectance(Surface s) {
+  return s.type == kTypeSpecularGlossiness ? s.albedo + s.specular : s.albedo;
+}
+
 // Factor on the ambient light; each pass that shades has it as a parameter.
 uniform float ambientScale = 1.0;
 
 vec3 shade(Surface s) {
-  vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * s.albedo * s.occlusion;
+  if (s.type == kTypeUnlit) return s.albedo;
+  vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * ambientReflectance(s) * s.occlusion;
   // One plain loop: where pixels leave an inner loop at different lights, llvmpipe (Mesa 22.3) takes
   // the index for equal in all of them and reads the wrong light.
   for (uint i = 0u; i < lightCount.x; ++i)

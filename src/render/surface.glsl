@@ -5,6 +5,8 @@ const uint kTypeNothing = 0u;
 const uint kTypePhong = 1u;
 const uint kTypeMetallicRoughness = 2u;
 const uint kTypeCustom = 3u;
+const uint kTypeUnlit = 4u;
+const uint kTypeSpecularGlossiness = 5u;
 
 struct Surface {
   uint type;
@@ -14,7 +16,7 @@ struct Surface {
   vec3 albedo;
   vec3 emissive;       // radiance
   float occlusion;     // of ambient light, 1: none
-  vec3 specular;       // Phong
+  vec3 specular;       // Phong: of the highlight; specular-glossiness: at normal incidence
   float shininess;     // Phong
   float metallic;
   float roughness;

@@ -41,6 +41,11 @@ Vertex vertexOf(const scene::Mesh& mesh, std::size_t i) {
   return vertex;
 }
 
+gpu::Topology topologyOf(const scene::Mesh& mesh) {
+  if (!mesh.lines.empty()) return gpu::Topology::Lines;
+  return mesh.points.empty() ? gpu::Topology::Triangles : gpu::Topology::Points;
+}
+
 void makeInput(gpu::Device& device, GpuScene& gpuScene) {
   using Type = gpu::VertexAttribute::Type;
   const auto at = [](std::size_t offset) { return static_cast<std::uint32_t>(offset); };
@@ -66,11 +71,12 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
   std::size_t indexCount = 0;
   gpuScene.meshes.clear();
   for (const scene::Mesh& mesh : scene.meshes) {
-    gpuScene.meshes.push_back({.firstIndex = static_cast<std::uint32_t>(indexCount),
-                               .indexCount = static_cast<std::uint32_t>(mesh.indices.size()),
+    gpuScene.meshes.push_back({.topology = topologyOf(mesh),
+                               .firstIndex = static_cast<std::uint32_t>(indexCount),
+                               .indexCount = static_cast<std::uint32_t>(mesh.elements().size()),
                                .baseVertex = static_cast<std::int32_t>(vertexCount)});
     vertexCount += mesh.positions.size();
-    indexCount += mesh.indices.size();
+    indexCount += mesh.elements().size();
   }
 
   std::vector<Vertex> vertices(std::max<std::size_t>(vertexCount, 1));
@@ -81,7 +87,7 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
     parallelFor(mesh.positions.size(), 16384, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) first[i] = vertexOf(mesh, i);
     });
-    std::ranges::copy(mesh.indices, indices.begin() + gpuScene.meshes[m].firstIndex);
+    std::ranges::copy(mesh.elements(), indices.begin() + gpuScene.meshes[m].firstIndex);
   }
   std::vector<std::uint32_t> objectIndices(std::max<std::size_t>(scene.objects.size(), 1));
   for (std::size_t i = 0; i < objectIndices.size(); ++i)

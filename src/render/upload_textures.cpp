@@ -20,6 +20,7 @@ std::vector<Uses> textureUses(const scene::Scene& scene) {
   for (const scene::Material& material : scene.materials) {
     mark(material.albedoTexture.texture, &Uses::color);
     mark(material.emissiveTexture.texture, &Uses::color);
+    mark(material.specularTexture.texture, &Uses::color);
     mark(material.normalTexture.texture, &Uses::data);
     mark(material.metallicRoughnessTexture.texture, &Uses::data);
     mark(material.occlusionTexture.texture, &Uses::data);

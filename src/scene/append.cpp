@@ -19,7 +19,7 @@ void move(std::vector<T>& to, std::vector<T>& from) {
 void shiftShared(Scene& scene, std::size_t meshes, std::size_t textures) {
   for (Material& m : scene.materials)
     for (TextureSlot* slot : {&m.albedoTexture, &m.emissiveTexture, &m.normalTexture,
-                              &m.metallicRoughnessTexture, &m.occlusionTexture})
+                              &m.metallicRoughnessTexture, &m.occlusionTexture, &m.specularTexture})
       shift(slot->texture, textures);
   for (Object& object : scene.objects) shift(object.mesh, meshes);
   shift(scene.background.texture, textures);

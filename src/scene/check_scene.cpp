@@ -41,8 +41,10 @@ Status checkMesh(const Mesh& mesh, std::size_t index) {
       !fits(mesh.texCoords[1]) || !fits(mesh.colors))
     return fault("mesh", index, "a stream is not as long as the positions");
   if (mesh.indices.size() % 3 != 0) return fault("mesh", index, "indices are no triangles");
-  for (const std::uint32_t i : mesh.indices)
-    if (i >= count) return fault("mesh", index, "an index is out of range");
+  if (mesh.lines.size() % 2 != 0) return fault("mesh", index, "indices are no lines");
+  for (const auto* list : {&mesh.indices, &mesh.lines, &mesh.points})
+    for (const std::uint32_t i : *list)
+      if (i >= count) return fault("mesh", index, "an index is out of range");
   if (!finiteStream(mesh.positions) || !finiteStream(mesh.normals) ||
       !finiteStream(mesh.tangents) || !finiteStream(mesh.texCoords[0]) ||
       !finiteStream(mesh.texCoords[1]))
@@ -57,8 +59,9 @@ bool goodSlot(const TextureSlot& slot, std::size_t textureCount) {
 }
 
 Status checkMaterial(const Material& m, std::size_t index, std::size_t textureCount) {
-  for (const TextureSlot* slot : {&m.albedoTexture, &m.emissiveTexture, &m.normalTexture,
-                                  &m.metallicRoughnessTexture, &m.occlusionTexture})
+  for (const TextureSlot* slot :
+       {&m.albedoTexture, &m.emissiveTexture, &m.normalTexture, &m.metallicRoughnessTexture,
+        &m.occlusionTexture, &m.specularTexture})
     if (!goodSlot(*slot, textureCount))
       return fault("material", index, "a texture slot is out of range");
   const float numbers[] = {m.alphaCutoff, m.normalScale, m.metallic,

@@ -44,14 +44,16 @@ void limitReflectance(Scene& scene) {
 
 void addBounds(Mesh& mesh) {
   mesh.bounds = {};
-  for (const std::uint32_t index : mesh.indices) mesh.bounds.grow(mesh.positions[index]);
+  for (const std::uint32_t index : mesh.elements()) mesh.bounds.grow(mesh.positions[index]);
 }
 
 void addTangents(Scene& scene) {
   for (const Object& object : scene.objects) {
     Mesh& mesh = scene.meshes[object.mesh];
     const TextureSlot& slot = scene.materials[object.material].normalTexture;
-    if (!slot.used() || !mesh.tangents.empty() || mesh.texCoords[slot.texCoord].empty()) continue;
+    if (!slot.used() || !mesh.tangents.empty() || mesh.texCoords[slot.texCoord].empty() ||
+        mesh.triangleCount() == 0)
+      continue;
     makeTangents(mesh, slot.texCoord);
   }
 }
@@ -73,7 +75,7 @@ void complete(Scene& scene) {
   addDefaultMaterial(scene);
   limitReflectance(scene);
   for (Mesh& mesh : scene.meshes) {
-    if (mesh.normals.empty()) makeNormals(mesh);
+    if (mesh.normals.empty() && mesh.triangleCount() > 0) makeNormals(mesh);
     if (mesh.bounds.empty()) addBounds(mesh);
   }
   addTangents(scene);

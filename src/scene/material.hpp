@@ -1,4 +1,4 @@
-// Surface materials: one struct for both models; fields of the other model are ignored.
+// Surface materials: one struct for all models; fields of other models are ignored.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,12 @@
 
 namespace lucerna::scene {
 
-enum class MaterialModel { Phong, MetallicRoughness };
+enum class MaterialModel {
+  Phong,
+  MetallicRoughness,
+  Unlit,               // shows its albedo in any light, and gives and takes none
+  SpecularGlossiness,  // KHR_materials_pbrSpecularGlossiness
+};
 enum class AlphaMode { Opaque, Mask, Blend };
 
 inline constexpr std::uint32_t kNoTexture = ~0u;
@@ -30,7 +35,8 @@ struct Material {
   float alphaCutoff = 0.5f;
   bool doubleSided = false;
 
-  vec4 albedo{1.f};  // linear; diffuse of Phong, base colour of metallic-roughness; a: opacity
+  // Linear; base colour of metallic-roughness, colour of unlit, else diffuse; a: opacity.
+  vec4 albedo{1.f};
   TextureSlot albedoTexture;    // sRGB, times albedo
   vec3 emissive{0.f};           // linear radiance
   TextureSlot emissiveTexture;  // sRGB, times emissive
@@ -45,9 +51,12 @@ struct Material {
   TextureSlot occlusionTexture;          // r, dims ambient light only
   float occlusionStrength = 1.f;
 
-  // Phong
-  vec3 specular{0.f};      // linear
-  float shininess = 32.f;  // exponent h, 0 to 255 in the G-buffer
+  // Phong: reflectance of the highlight. Specular-glossiness: reflectance at normal incidence; the
+  // roughness is above, and the diffuse albedo counts times 1 - the largest of these three.
+  vec3 specular{0.f};           // linear
+  TextureSlot specularTexture;  // sRGB, times specular; a of specular-glossiness: times glossiness,
+                                // which is 1 - roughness
+  float shininess = 32.f;       // Phong's exponent h, 0 to 255 in the G-buffer
 };
 
 // THE formula for light passing straight through a translucent surface of opacity `alpha`:

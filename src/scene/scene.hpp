@@ -19,7 +19,8 @@
 
 namespace lucerna::scene {
 
-// Indexed triangles in object space. Streams are empty or as long as positions.
+// Indexed triangles, or else lines or points, in object space. Streams are empty or as long as
+// positions.
 struct Mesh {
   std::string name;
   std::vector<vec3> positions;
@@ -28,9 +29,17 @@ struct Mesh {
   std::array<std::vector<vec2>, 2> texCoords;  // (0, 0) is the top left texel's corner, as in glTF
   std::vector<u8vec4> colors;                  // linear unorm, multiplies albedo
   std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from the front
-  Aabb bounds;                         // of the positions that indices use
+  // What a mesh without triangles is made of: drawn one pixel of the rendering wide and, where it
+  // has no normals, unlit. It is no surface: it throws no shadow and stops no ray.
+  std::vector<std::uint32_t> lines;   // two a line
+  std::vector<std::uint32_t> points;  // one a point
+  Aabb bounds;                        // of the positions that the elements use
 
   std::size_t triangleCount() const { return indices.size() / 3; }
+  // Whichever of the three it is made of.
+  const std::vector<std::uint32_t>& elements() const {
+    return !lines.empty() ? lines : !points.empty() ? points : indices;
+  }
 };
 
 struct Node {

@@ -10,7 +10,8 @@ namespace {
 
 void readMaterial(const JsonValue& from, Material& material) {
   int choice = 0;
-  if (from.readChoice("model", {"phong", "metallic-roughness"}, choice))
+  if (from.readChoice("model", {"phong", "metallic-roughness", "unlit", "specular-glossiness"},
+                      choice))
     material.model = static_cast<MaterialModel>(choice);
   vec3 albedo(material.albedo);
   if (from.read("albedo", albedo, kUnitRange)) material.albedo = vec4(albedo, material.albedo.w);

@@ -32,14 +32,16 @@ void GBuffer::describe(graph::PassInfo<Params, Ports>& d) {
       .texture(Format::Srgb8Alpha8)
       .sizeOfOutput()
       .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
-      .help("rgb: Phong specular reflectance; a: occlusion of ambient light.");
+      .help(
+          "rgb: specular reflectance of Phong and specular-glossiness; a: occlusion of ambient "
+          "light.");
   d.write("material", &Ports::material)
       .texture(Format::Rgba8Uint)
       .sizeOfOutput()
       .whenDisabled(vec4(0.f))
       .help(
-          "r: type (0 nothing, 1 Phong, 2 metallic-roughness, 3 custom shader); g: shininess or "
-          "roughness * 255; b: metallic * 255.");
+          "r: type (0 nothing, 1 Phong, 2 metallic-roughness, 3 custom shader, 4 unlit, 5 "
+          "specular-glossiness); g: shininess or roughness * 255; b: metallic * 255.");
   d.write("emissive", &Ports::emissive)
       .texture(Format::R11G11B10Float)
       .sizeOfOutput()

@@ -21,7 +21,7 @@ void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("specular", &Ports::specular)
       .texture(Format::Srgb8Alpha8)
       .sameSizeAs("depth")
-      .help("Phong specular and occlusion of ambient light.");
+      .help("Specular and occlusion of ambient light.");
   d.read("material", &Ports::material)
       .texture(Format::Rgba8Uint)
       .sameSizeAs("depth")

@@ -7,10 +7,12 @@ uniform float scale;     // m
 
 layout(location = 0) out vec4 color;
 
-// Phong blue, metallic-roughness orange, custom shader green.
+// Phong blue, metallic-roughness orange, specular-glossiness red, unlit white, custom shader green.
 vec3 typeColor(uint type) {
   if (type == kTypePhong) return vec3(0.25, 0.45, 0.85);
   if (type == kTypeMetallicRoughness) return vec3(0.9, 0.55, 0.2);
+  if (type == kTypeSpecularGlossiness) return vec3(0.85, 0.25, 0.25);
+  if (type == kTypeUnlit) return vec3(0.9);
   return vec3(0.3, 0.75, 0.35);
 }
 

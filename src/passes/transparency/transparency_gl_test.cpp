@@ -47,6 +47,15 @@ TEST(Transparency, BlendsTheFarPaneFirstInWhateverOrderTheSceneHasThem) {
   }
 }
 
+TEST(Transparency, UnlitPanesKeepTheirColourInAnyLight) {
+  scene::Scene scene = testing::emptyScene();
+  scene.ambient = vec3(3.f);
+  scene::Material& pane = addPane(scene, 3.f, 0.5f, vec3(9.f), vec3(1.f));
+  pane.model = scene::MaterialModel::Unlit;
+  pane.albedo = {0.5f, 0.f, 1.f, 0.5f};
+  expectNear(testing::centerOf(radiance(scene)), vec3(0.25f, 0.f, 0.5f));
+}
+
 TEST(Transparency, IsHiddenByOpaqueSurfaces) {
   scene::Scene scene = testing::emptyScene();
   testing::addWall(scene, 2.f).emissive = vec3(0.5f);

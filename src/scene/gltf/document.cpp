@@ -20,6 +20,28 @@ constexpr std::array kReadExtensions = {
     "EXT_mesh_gpu_instancing",
 };
 
+// What to do about extensions that are not read, where there is something better to say.
+struct Advice {
+  const char* extension;
+  const char* next;
+};
+constexpr const char* kOtherPictures = "export the file again with PNG or JPEG textures";
+constexpr std::array kAdvice = {
+    Advice{"KHR_texture_basisu",
+           "its textures are KTX2 files, which are not decoded: export the file again with PNG or "
+           "JPEG textures"},
+    Advice{"EXT_texture_webp", kOtherPictures},
+    Advice{"EXT_texture_avif", kOtherPictures},
+    Advice{"MSFT_texture_dds", kOtherPictures},
+};
+
+std::string adviceAbout(const std::string& extension) {
+  const auto known = std::find_if(kAdvice.begin(), kAdvice.end(), [&](const Advice& advice) {
+    return extension == advice.extension;
+  });
+  return known != kAdvice.end() ? known->next : "export the file again without " + extension;
+}
+
 std::uint32_t read32(std::span<const std::byte> bytes, std::size_t at) {
   std::uint32_t value = 0;  // little-endian, as all machines that we build for
   std::memcpy(&value, bytes.data() + at, 4);
@@ -147,7 +169,7 @@ void checkExtensions(Document& document) {
     required.insert(name);
     if (!read(name)) {
       fail(place.pointer(), "\"" + name + "\"", "an extension that Lucerna reads",
-           "export the file again without " + name);
+           adviceAbout(name));
     }
   }
   for (const Place& place : document.root().elements("extensionsUsed")) {

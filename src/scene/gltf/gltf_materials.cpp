@@ -30,7 +30,6 @@ class MaterialReader {
   void readSampler(const Place& sampler, Texture& texture);
   void readMetallicRoughness(const Place& pbr, Material& material);
   void readSpecularGlossiness(const Place& glossy, Material& material);
-  void makeUnlit(Material& material);
 
   Context& context_;
   Document& document_;
@@ -144,36 +143,27 @@ void MaterialReader::readMetallicRoughness(const Place& pbr, Material& material)
   material.metallicRoughnessTexture = slot(pbr, "metallicRoughnessTexture");
 }
 
-// The diffuse part as it is; the specular part as that of a dielectric of the same roughness.
 void MaterialReader::readSpecularGlossiness(const Place& glossy, Material& material) {
+  material.model = MaterialModel::SpecularGlossiness;
   material.albedo = glossy.vector4("diffuseFactor", vec4(1.f));
   material.albedoTexture = slot(glossy, "diffuseTexture");
-  material.metallic = 0.f;
+  material.specular = glossy.vector3("specularFactor", vec3(1.f));
   material.roughness = 1.f - glossy.number("glossinessFactor", 1.f, 0.f, 1.f);
-}
-
-// A surface that shows its base colour whatever the light: it emits the colour and reflects none.
-void MaterialReader::makeUnlit(Material& material) {
-  material.emissive = vec3(material.albedo);
-  material.emissiveTexture = material.albedoTexture;
-  material.albedo = vec4(0.f, 0.f, 0.f, material.albedo.w);
-  material.metallic = 0.f;
-  material.roughness = 1.f;
-  material.metallicRoughnessTexture = {};
+  material.specularTexture = slot(glossy, "specularGlossinessTexture");
 }
 
 Material MaterialReader::read(const Place& place, std::size_t number) {
   Material material;
   material.name = place.text("name", fmt::format("material {}", number));
-  if (const auto pbr = place.find("pbrMetallicRoughness")) readMetallicRoughness(*pbr, material);
-  if (const auto glossy = place.extension("KHR_materials_pbrSpecularGlossiness")) {
-    const bool fallback = place.has("pbrMetallicRoughness");
-    if (!fallback) readSpecularGlossiness(*glossy, material);
-    document_.warn(fallback ? "KHR_materials_pbrSpecularGlossiness is not read: its materials are "
-                              "drawn with their metallic-roughness fallback"
-                            : "KHR_materials_pbrSpecularGlossiness: its materials are drawn as "
-                              "dielectrics with their diffuse colour and glossiness");
+  const auto pbr = place.find("pbrMetallicRoughness");
+  const auto glossy = place.extension("KHR_materials_pbrSpecularGlossiness");
+  const bool unlit = place.extension("KHR_materials_unlit").has_value();
+  if (glossy && !(unlit && pbr)) {
+    readSpecularGlossiness(*glossy, material);
+  } else if (pbr) {
+    readMetallicRoughness(*pbr, material);
   }
+  if (unlit) material.model = MaterialModel::Unlit;
   material.normalTexture = slot(place, "normalTexture");
   if (const auto normal = place.find("normalTexture")) {
     material.normalScale = normal->number("scale", 1.f, -kLarge, kLarge);
@@ -196,11 +186,6 @@ Material MaterialReader::read(const Place& place, std::size_t number) {
     place.at("alphaMode").refuse("\"OPAQUE\", \"MASK\" or \"BLEND\"");
   material.alphaCutoff = place.number("alphaCutoff", 0.5f, 0.f, kLarge);
   material.doubleSided = place.boolean("doubleSided", false);
-  if (place.extension("KHR_materials_unlit")) {
-    makeUnlit(material);
-    document_.warn(
-        "KHR_materials_unlit: its materials are drawn as surfaces that emit their colour");
-  }
   return material;
 }
 
@@ -213,7 +198,7 @@ void MaterialReader::loadImages() {
   // shadow: the material goes without.
   for (Material& material : context_.scene.materials) {
     for (TextureSlot* slot : {&material.normalTexture, &material.metallicRoughnessTexture,
-                              &material.occlusionTexture}) {
+                              &material.occlusionTexture, &material.specularTexture}) {
       if (slot->used() && context_.scene.textures[slot->texture].image == checkerboard()) {
         *slot = {};
       }

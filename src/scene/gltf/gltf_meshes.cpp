@@ -1,4 +1,4 @@
-// Primitives become indexed triangle lists.
+// Primitives become indexed lists of triangles, lines or points.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -11,14 +11,32 @@ namespace lucerna::scene::gltf {
 
 namespace {
 
-enum Mode { kPoints = 0, kTriangles = 4, kStrip = 5, kFan = 6 };
+enum Mode { kPoints, kLines, kLineLoop, kLineStrip, kTriangles, kTriangleStrip, kTriangleFan };
 
-std::vector<std::uint32_t> triangleList(std::vector<std::uint32_t> in, int mode) {
-  if (mode == kTriangles) return in;
+struct Element {
+  std::size_t corners;
+  const char* name;
+};
+
+Element elementOf(int mode) {
+  if (mode == kPoints) return {1, "point"};
+  return mode < kTriangles ? Element{2, "line"} : Element{3, "triangle"};
+}
+
+std::vector<std::uint32_t> lineList(const std::vector<std::uint32_t>& in, bool closed) {
+  std::vector<std::uint32_t> out;
+  if (in.size() < 2) return out;
+  out.reserve(in.size() * 2);
+  for (std::size_t i = 1; i < in.size(); ++i) out.insert(out.end(), {in[i - 1], in[i]});
+  if (closed) out.insert(out.end(), {in.back(), in.front()});
+  return out;
+}
+
+std::vector<std::uint32_t> triangleList(const std::vector<std::uint32_t>& in, bool fan) {
   std::vector<std::uint32_t> out;
   out.reserve(in.size() * 3);
   for (std::size_t i = 2; i < in.size(); ++i) {
-    if (mode == kFan)
+    if (fan)
       out.insert(out.end(), {in[i - 1], in[i], in[0]});
     else if (i % 2 == 0)
       out.insert(out.end(), {in[i - 2], in[i - 1], in[i]});
@@ -26,6 +44,20 @@ std::vector<std::uint32_t> triangleList(std::vector<std::uint32_t> in, int mode)
       out.insert(out.end(), {in[i - 2], in[i], in[i - 1]});  // every second one is turned round
   }
   return out;
+}
+
+// Loops, strips and fans become lists.
+std::vector<std::uint32_t> elementList(std::vector<std::uint32_t> in, int mode) {
+  switch (mode) {
+    case kLineLoop:
+    case kLineStrip:
+      return lineList(in, mode == kLineLoop);
+    case kTriangleStrip:
+    case kTriangleFan:
+      return triangleList(in, mode == kTriangleFan);
+    default:
+      return in;
+  }
 }
 
 template <typename Vector>
@@ -55,7 +87,7 @@ class PrimitiveReader {
   PrimitiveReader(Context& context, const Place& primitive, std::string name)
       : context_(context), primitive_(primitive), name_(std::move(name)) {}
 
-  // Nothing, with a warning, if it has no triangles to draw.
+  // Nothing, with a warning, if it has nothing to draw.
   std::optional<Mesh> read();
 
  private:
@@ -63,9 +95,10 @@ class PrimitiveReader {
   std::vector<float> floats(const Accessor& accessor, int components) {
     return readFloats(context_.document, accessor, components, vertices_);
   }
-  bool readTriangles(int mode);
+  bool readElements();
   void keepUsedVertices();
   void readPositions();
+  void dropElements(const std::vector<bool>& badVertices);
   void readNormals();
   void makeFlat();
   void readTangents();
@@ -79,6 +112,8 @@ class PrimitiveReader {
   Place primitive_;
   std::string name_;
   std::uint32_t vertexCount_ = 0;
+  int mode_ = kTriangles;
+  std::vector<std::uint32_t> elements_;  // corners of all triangles, lines or points
   std::vector<std::uint32_t> vertices_;  // those that are used, if few are; else empty: all
   Mesh mesh_;
 };
@@ -102,7 +137,7 @@ void requireShape(const Accessor* accessor, int components, const char* attribut
   }
 }
 
-bool PrimitiveReader::readTriangles(int mode) {
+bool PrimitiveReader::readElements() {
   std::vector<std::uint32_t> indices;
   const auto accessor = primitive_.index("indices", context_.accessors.size(), "accessors");
   if (accessor == kNone) {
@@ -119,23 +154,24 @@ bool PrimitiveReader::readTriangles(int mode) {
           fmt::format("indices below {}, the count of POSITION", vertexCount_));
     }
   }
-  if (mode != kTriangles) context_.document.spend(indices.size() * 12, primitive_);
-  mesh_.indices = triangleList(std::move(indices), mode);
-  if (const auto rest = mesh_.indices.size() % 3; rest != 0) {
-    warn(fmt::format("has {} indices, not a multiple of 3: the last {} are ignored",
-                     mesh_.indices.size(), rest));
-    mesh_.indices.resize(mesh_.indices.size() - rest);
+  if (mode_ != kTriangles) context_.document.spend(indices.size() * 12, primitive_);
+  elements_ = elementList(std::move(indices), mode_);
+  const std::size_t corners = elementOf(mode_).corners;
+  if (const auto rest = elements_.size() % corners; rest != 0) {
+    warn(fmt::format("has {} indices, not a multiple of {}: the last {} are ignored",
+                     elements_.size(), corners, rest));
+    elements_.resize(elements_.size() - rest);
   }
-  return !mesh_.indices.empty();
+  return !elements_.empty();
 }
 
 // Exporters let many primitives index a few vertices each of one large accessor.
 void PrimitiveReader::keepUsedVertices() {
-  if (mesh_.indices.size() * 2 >= vertexCount_) return;
-  vertices_ = mesh_.indices;
+  if (elements_.size() * 2 >= vertexCount_) return;
+  vertices_ = elements_;
   std::sort(vertices_.begin(), vertices_.end());
   vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
-  for (std::uint32_t& index : mesh_.indices) {
+  for (std::uint32_t& index : elements_) {
     index = static_cast<std::uint32_t>(std::lower_bound(vertices_.begin(), vertices_.end(), index) -
                                        vertices_.begin());
   }
@@ -152,18 +188,24 @@ void PrimitiveReader::readPositions() {
     bad[i] = true;
     mesh_.positions[i] = vec3(0.f);
   }
-  auto& indices = mesh_.indices;
-  if (!bad.empty()) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-      if (bad[indices[i]] || bad[indices[i + 1]] || bad[indices[i + 2]]) continue;
-      for (std::size_t corner = 0; corner < 3; ++corner) indices[kept++] = indices[i + corner];
-    }
-    warn(fmt::format("has positions that are infinite or not a number: {} of {} triangles dropped",
-                     (indices.size() - kept) / 3, indices.size() / 3));
-    indices.resize(kept);
+  if (!bad.empty()) dropElements(bad);
+  for (const std::uint32_t index : elements_) mesh_.bounds.grow(mesh_.positions[index]);
+}
+
+void PrimitiveReader::dropElements(const std::vector<bool>& badVertices) {
+  const auto [corners, name] = elementOf(mode_);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < elements_.size(); i += corners) {
+    const auto begin = elements_.begin() + static_cast<std::ptrdiff_t>(i);
+    const auto end = begin + static_cast<std::ptrdiff_t>(corners);
+    if (std::any_of(begin, end, [&](std::uint32_t vertex) { return badVertices[vertex]; }))
+      continue;
+    std::copy(begin, end, elements_.begin() + static_cast<std::ptrdiff_t>(kept));
+    kept += corners;
   }
-  for (const std::uint32_t index : indices) mesh_.bounds.grow(mesh_.positions[index]);
+  warn(fmt::format("has positions that are infinite or not a number: {} of {} {}s dropped",
+                   (elements_.size() - kept) / corners, elements_.size() / corners, name));
+  elements_.resize(kept);
 }
 
 void PrimitiveReader::readNormals() {
@@ -264,29 +306,28 @@ void PrimitiveReader::readColors() {
 }
 
 std::optional<Mesh> PrimitiveReader::read() {
-  const int mode = static_cast<int>(primitive_.integer("mode", kTriangles, 0, 6));
-  if (mode < kTriangles) {
-    warn(fmt::format("is made of {}, which are not drawn: skipped",
-                     mode == kPoints ? "points" : "lines"));
-    return std::nullopt;
-  }
+  mode_ = static_cast<int>(primitive_.integer("mode", kTriangles, 0, 6));
   if (!attribute("POSITION")) {
     warn("has no POSITION: skipped");
     return std::nullopt;
   }
-  if (!readTriangles(mode)) {
-    warn("has no triangle: skipped");
+  if (!readElements()) {
+    warn(fmt::format("has no {}: skipped", elementOf(mode_).name));
     return std::nullopt;
   }
   mesh_.name = name_;
   keepUsedVertices();
   readPositions();
-  if (mesh_.indices.empty()) return std::nullopt;
+  if (elements_.empty()) return std::nullopt;
+  const bool triangles = mode_ >= kTriangles;
+  (triangles          ? mesh_.indices
+   : mode_ == kPoints ? mesh_.points
+                      : mesh_.lines) = std::move(elements_);
   readNormals();
   if (!mesh_.normals.empty()) readTangents();  // else they are to be ignored
   readTexCoords();
   readColors();
-  if (mesh_.normals.empty()) makeFlat();
+  if (triangles && mesh_.normals.empty()) makeFlat();
   if (!primitive_.elements("targets").empty()) {
     warn("has morph targets, which are not applied: drawn in its basic shape");
   }

@@ -1,112 +1,14 @@
 // Small glTF files written by the tests, one for each rule of the format that is easy to get wrong.
 #include <gmock/gmock.h>
 
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
-
-#include "scene/gltf/gltf_reader.hpp"
+#include "scene/gltf/gltf_file.hpp"
 
 namespace lucerna::scene {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::Contains;
 using testing::HasSubstr;
-
-// A glTF under construction: JSON plus one buffer.
-class GltfFile : public testing::Test {
- protected:
-  GltfFile() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::temp_directory_path() / (std::string("lucerna_gltf_") + info->name());
-    fs::create_directories(folder_);
-    root_["asset"]["version"] = "2.0";
-    root_["scene"] = 0;
-    root_["scenes"][0]["nodes"] = {0};
-    root_["nodes"][0]["mesh"] = 0;
-  }
-  ~GltfFile() override { fs::remove_all(folder_); }
-
-  // Appends an accessor over new data and returns its index.
-  template <typename T>
-  int accessor(const std::vector<T>& values, int componentType, const char* type, int components,
-               bool normalized = false) {
-    while (buffer_.size() % 4 != 0) buffer_.push_back('\0');
-    const std::size_t offset = buffer_.size();
-    buffer_.resize(offset + values.size() * sizeof(T));
-    std::memcpy(buffer_.data() + offset, values.data(), values.size() * sizeof(T));
-    root_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", values.size() * sizeof(T)}});
-    json made = {{"bufferView", root_["bufferViews"].size() - 1},
-                 {"componentType", componentType},
-                 {"count", values.size() / static_cast<std::size_t>(components)},
-                 {"type", type}};
-    if (normalized) made["normalized"] = true;
-    root_["accessors"].push_back(made);
-    return static_cast<int>(root_["accessors"].size()) - 1;
-  }
-  int floats(const std::vector<float>& values, const char* type, int components) {
-    return accessor(values, 5126, type, components);
-  }
-  // Four equal normals, so that the square keeps its vertices.
-  int squareNormals() { return floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3", 3); }
-  // A unit square of four corners in the first primitive.
-  json& square() {
-    json& primitive = root_["meshes"][0]["primitives"][0];
-    primitive["attributes"]["POSITION"] = floats({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, "VEC3", 3);
-    return primitive;
-  }
-  json& indexedSquare() {
-    json& primitive = square();
-    primitive["indices"] = accessor<std::uint16_t>({0, 1, 2, 0, 2, 3}, 5123, "SCALAR", 1);
-    return primitive;
-  }
-
-  Result<Scene> read() {
-    if (!buffer_.empty()) {
-      root_["buffers"][0]["byteLength"] = buffer_.size();
-      root_["buffers"][0]["uri"] = "a%20b.bin";  // percent-encoded
-      std::ofstream(folder_ / "a b.bin", std::ios::binary) << buffer_;
-    }
-    return readText(root_.dump());
-  }
-  Result<Scene> readText(const std::string& text, const char* name = "test.gltf") {
-    std::ofstream(folder_ / name, std::ios::binary) << text;
-    auto scene = readGltf(folder_ / name);
-    if (scene) updateTransforms(*scene);
-    return scene;
-  }
-  // Reads and expects a refusal whose message contains all words.
-  void expectRefused(const std::vector<std::string>& words) {
-    const auto scene = read();
-    ASSERT_FALSE(scene) << "was read";
-    EXPECT_EQ(scene.error().kind, ErrorKind::Input);
-    for (const auto& word : words) EXPECT_THAT(scene.error().message, HasSubstr(word));
-  }
-
-  json root_;
-  std::string buffer_;
-  fs::path folder_;
-};
-
-TEST_F(GltfFile, StripsAndFansBecomeTriangleListsThatFaceForward) {
-  json& primitive = square();
-  primitive["indices"] = accessor<std::uint8_t>({0, 1, 3, 2}, 5121, "SCALAR", 1);
-  primitive["attributes"]["NORMAL"] = squareNormals();
-  primitive["mode"] = 5;
-  auto scene = read();
-  ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(0, 1, 3, 1, 2, 3));
-
-  root_["meshes"][0]["primitives"][0]["mode"] = 6;
-  root_["meshes"][0]["primitives"][0].erase("indices");
-  scene = read();
-  ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(1, 2, 0, 2, 3, 0));
-}
 
 TEST_F(GltfFile, SeveralNodesShareAMeshAndItsEqualPrimitives) {
   json& primitive = indexedSquare();
@@ -139,51 +41,6 @@ TEST_F(GltfFile, MatricesBecomeTransformsOrStayIfTheyShear) {
   EXPECT_LT(glm::distance(corner, vec4(2, 4, 8, 1)), 1e-5f);
   ASSERT_TRUE(scene->nodes[1].matrix);
   EXPECT_EQ(scene->nodes[1].worldFromNode[1], vec4(1, 1, 0, 0));
-}
-
-TEST_F(GltfFile, NormalizedAndInterleavedDataAreConverted) {
-  // Corners of 16 bytes: position as floats, texture coordinate as normalized unsigned shorts.
-  json& primitive = root_["meshes"][0]["primitives"][0];
-  struct Corner {
-    float position[3];
-    std::uint16_t uv[2];
-  };
-  const Corner corners[3] = {{{0, 0, 0}, {0, 0}}, {{1, 0, 0}, {65535, 0}}, {{0, 1, 0}, {0, 32768}}};
-  buffer_.assign(reinterpret_cast<const char*>(corners), sizeof(corners));
-  root_["bufferViews"][0] = {{"buffer", 0}, {"byteLength", 48}, {"byteStride", 16}};
-  root_["accessors"] = {
-      {{"bufferView", 0}, {"componentType", 5126}, {"count", 3}, {"type", "VEC3"}},
-      {{"bufferView", 0},
-       {"byteOffset", 12},
-       {"componentType", 5123},
-       {"count", 3},
-       {"type", "VEC2"},
-       {"normalized", true}}};
-  primitive["attributes"] = {{"POSITION", 0}, {"TEXCOORD_0", 1}};
-  primitive["attributes"]["COLOR_0"] =
-      accessor<std::uint16_t>({65535, 0, 32768, 0, 0, 0, 0, 0, 65535}, 5123, "VEC3", 3, true);
-  const auto scene = read();
-  ASSERT_TRUE(scene) << scene.error().message;
-  const Mesh& mesh = scene->meshes[0];
-  EXPECT_EQ(mesh.positions[2], vec3(0, 1, 0));
-  EXPECT_EQ(mesh.texCoords[0][1], vec2(1, 0));
-  EXPECT_NEAR(mesh.texCoords[0][2].y, 0.5f, 1e-5f);
-  EXPECT_EQ(mesh.colors[0], u8vec4(255, 0, 128, 255));
-}
-
-TEST_F(GltfFile, SparseAccessorsReplaceElements) {
-  json& primitive = indexedSquare();
-  const int at = accessor<std::uint8_t>({2}, 5121, "SCALAR", 1);
-  const int with = floats({7, 8, 9}, "VEC3", 3);
-  const json accessors = root_["accessors"];
-  root_["accessors"][primitive["attributes"]["POSITION"].get<int>()]["sparse"] = {
-      {"count", 1},
-      {"indices", {{"bufferView", accessors[at]["bufferView"]}, {"componentType", 5121}}},
-      {"values", {{"bufferView", accessors[with]["bufferView"]}}}};
-  auto scene = read();
-  ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->meshes[0].positions[2], vec3(7, 8, 9));
-  EXPECT_EQ(scene->meshes[0].positions[1], vec3(1, 0, 0));
 }
 
 TEST_F(GltfFile, FewUsedVerticesAreGathered) {
@@ -383,16 +240,6 @@ TEST_F(GltfFile, TrianglesAtInfinityAreDropped) {
   EXPECT_THAT(scene->meshes[0].indices, testing::ElementsAre(0, 2, 3));
   EXPECT_EQ(scene->boundsW().max, vec3(1, 1, 0));
   EXPECT_THAT(scene->warnings, Contains(HasSubstr("1 of 2 triangles dropped")));
-}
-
-TEST_F(GltfFile, UnlitSurfacesEmitTheirColour) {
-  indexedSquare()["material"] = 0;
-  root_["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {0.5, 0.25, 1, 0.5};
-  root_["materials"][0]["extensions"]["KHR_materials_unlit"] = json::object();
-  const auto scene = read();
-  ASSERT_TRUE(scene) << scene.error().message;
-  EXPECT_EQ(scene->materials[0].emissive, vec3(0.5f, 0.25f, 1));
-  EXPECT_EQ(scene->materials[0].albedo, vec4(0, 0, 0, 0.5f));
 }
 
 // What must be refused, with the place in the file.

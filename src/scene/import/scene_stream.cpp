@@ -144,11 +144,11 @@ const auto materialFields = [](auto& a, auto& m) {
   const auto slot = [&](auto& s) {
     a(s.texture), a(s.texCoord), a(s.offset), a(s.scale), a(s.rotation);
   };
-  a(m.name), a.choice(m.model, 2), a.choice(m.alphaMode, 3), a(m.alphaCutoff), a(m.doubleSided);
+  a(m.name), a.choice(m.model, 4), a.choice(m.alphaMode, 3), a(m.alphaCutoff), a(m.doubleSided);
   a(m.albedo), slot(m.albedoTexture), a(m.emissive), slot(m.emissiveTexture);
   slot(m.normalTexture), a(m.normalScale), a(m.transmission);
   a(m.metallic), a(m.roughness), slot(m.metallicRoughnessTexture), slot(m.occlusionTexture);
-  a(m.occlusionStrength), a(m.specular), a(m.shininess);
+  a(m.occlusionStrength), a(m.specular), slot(m.specularTexture), a(m.shininess);
 };
 
 const auto nodeFields = [](auto& a, auto& n) {
