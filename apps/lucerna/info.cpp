@@ -70,7 +70,9 @@ Json sceneJson(const scene::Scene& scene) {
                                      {"double_sided", material.doubleSided}});
   json["animation_list"] = Json::array();
   for (const scene::Animation& animation : scene.animations)
-    json["animation_list"].push_back({{"name", animation.name}, {"seconds", animation.duration()}});
+    json["animation_list"].push_back({{"name", animation.name},
+                                      {"seconds", animation.duration()},
+                                      {"playing", animation.playing}});
   json["warnings"] = scene.warnings;
   return json;
 }
@@ -96,8 +98,11 @@ std::string sceneText(const scene::Scene& scene) {
     text += fmt::format("  material '{}': {}, {}{}\n", material.name,
                         nameIn(kModels, material.model), nameIn(kAlphaModes, material.alphaMode),
                         material.doubleSided ? ", double-sided" : "");
-  for (const scene::Animation& animation : scene.animations)
-    text += fmt::format("  animation '{}': {:.2f} s\n", animation.name, animation.duration());
+  for (std::size_t i = 0; i < scene.animations.size(); ++i) {
+    const scene::Animation& animation = scene.animations[i];
+    text += fmt::format("  animation {}: '{}', {:.2f} s{}\n", i, animation.name,
+                        animation.duration(), animation.playing ? ", playing" : "");
+  }
   for (const std::string& warning : scene.warnings) text += "  warning: " + warning + "\n";
   return text;
 }

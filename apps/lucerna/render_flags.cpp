@@ -41,6 +41,8 @@ void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
       .add_option("--camera-path", settings.cameraPath,
                   "FILE.json of keyframes that the camera follows")
       ->excludes(camera);
+  command.add_option("--animation", settings.animation,
+                     "NAME or INDEX of the one that plays, or none (of each file the first)");
   command.add_option("--frames", settings.frames, "how many frames (1)")
       ->check(wholeNumber(1, 10'000'000));
   command.add_option("--time", settings.time, "seconds into the scene's animation (0)")

@@ -26,11 +26,28 @@ Status openDevice(Session& session) {
   return {};
 }
 
+Status takeAnimation(Session& session) {
+  scene::Scene& scene = session.scene;
+  const std::string& choice = session.settings.animation;
+  if (!choice.empty()) {
+    const Status chosen = chooseAnimation(scene, choice);
+    return chosen ? Status() : error(ErrorKind::Usage, "--animation: {}", chosen.error().message);
+  }
+  std::vector<std::string> others;
+  for (const scene::Animation& animation : scene.animations)
+    if (!animation.playing) others.push_back("'" + animation.name + "'");
+  if (!others.empty())
+    log::info("{} has more animations than play; --animation chooses one: {}", scene.name,
+              join(others));
+  return {};
+}
+
 Status takeScene(Session& session, Result<scene::Scene> scene) {
   if (!scene) return scene.error();
   session.scene = std::move(scene).value();
   for (const std::string& warning : session.scene.warnings)
     log::warning("{}: {}", session.scene.name, warning);
+  LUCERNA_TRY_VOID(takeAnimation(session));
   if (session.settings.exposure) session.scene.exposure = *session.settings.exposure;
   LUCERNA_TRY(camera, chooseCamera(session.scene, session.settings.camera));
   session.camera = camera;

@@ -23,6 +23,7 @@ struct RenderSettings {
   int scale = 100;                    // percent: rendering size / output size
   std::string camera;                 // "": the scene's first
   std::string cameraPath;             // file; "": none
+  std::string animation;              // name, index or "none"; "": the scene's choice
   std::uint64_t frames = 1;
   double time = 0, timeStep = 1.0 / 30;  // s
   std::uint64_t seed = 0;

@@ -3,18 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/transform.hpp"
 #include "render/blocks.hpp"
 #include "render/upload.hpp"
 
 namespace lucerna::render {
 namespace {
-
-// The matrix on normals up to a positive factor: cofactors need no division, so a matrix that
-// flattens an axis still gives finite normals.
-mat3 normalMatrix(const mat3& m) {
-  const mat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return glm::dot(m[0], cofactors[0]) < 0.f ? -1.f * cofactors : cofactors;
-}
 
 bool flipsOrientation(const mat4& worldFromObject) {
   return glm::determinant(mat3(worldFromObject)) < 0.f;
@@ -126,6 +120,7 @@ void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::u
   if (moved.empty()) return;
   auto& known = gpuScene.changes.movedObjects;
   known.insert(known.end(), moved.begin(), moved.end());
+  uploadBentMeshes(device, gpuScene);
   uploadObjects(device, gpuScene);
   std::vector<Aabb> boxes;
   for (const std::uint32_t object : moved) boxes.push_back(gpuScene.scene->objects[object].boundsW);

@@ -27,6 +27,7 @@ struct MeshRange {
   gpu::Topology topology = gpu::Topology::Triangles;
   std::uint32_t firstIndex = 0, indexCount = 0;
   std::int32_t baseVertex = 0;
+  std::uint32_t version = 0;  // Mesh::version of the vertices there
 };
 
 struct GpuScene {
@@ -51,7 +52,7 @@ struct GpuScene {
 
 // Uploads everything. The scene must outlive it.
 void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene);
-// After animate(): object matrices, boxes and BVH. Adds to changes.movedObjects; who runs a
+// After animate(): object matrices, vertices of meshes that bent, boxes and BVH. Adds to changes.movedObjects; who runs a
 // frame clears the changes after it.
 void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::uint32_t> moved);
 

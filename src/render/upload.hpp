@@ -7,6 +7,8 @@ namespace lucerna::render {
 
 // meshes, vertices, indices, objectIndices, input.
 void uploadGeometry(gpu::Device& device, GpuScene& gpuScene);
+// The vertices of meshes whose version is another than on the GPU.
+void uploadBentMeshes(gpu::Device& device, GpuScene& gpuScene);
 
 // textures, linearTextures, samplers, white, backgroundCube.
 void uploadTextures(gpu::Device& device, GpuScene& gpuScene);

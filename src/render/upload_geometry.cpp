@@ -46,6 +46,12 @@ gpu::Topology topologyOf(const scene::Mesh& mesh) {
   return mesh.points.empty() ? gpu::Topology::Triangles : gpu::Topology::Points;
 }
 
+void writeVertices(const scene::Mesh& mesh, Vertex* to) {
+  parallelFor(mesh.positions.size(), 16384, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) to[i] = vertexOf(mesh, i);
+  });
+}
+
 void makeInput(gpu::Device& device, GpuScene& gpuScene) {
   using Type = gpu::VertexAttribute::Type;
   const auto at = [](std::size_t offset) { return static_cast<std::uint32_t>(offset); };
@@ -74,7 +80,8 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
     gpuScene.meshes.push_back({.topology = topologyOf(mesh),
                                .firstIndex = static_cast<std::uint32_t>(indexCount),
                                .indexCount = static_cast<std::uint32_t>(mesh.elements().size()),
-                               .baseVertex = static_cast<std::int32_t>(vertexCount)});
+                               .baseVertex = static_cast<std::int32_t>(vertexCount),
+                               .version = mesh.version});
     vertexCount += mesh.positions.size();
     indexCount += mesh.elements().size();
   }
@@ -83,10 +90,7 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
   std::vector<std::uint32_t> indices(std::max<std::size_t>(indexCount, 1));
   for (std::size_t m = 0; m < scene.meshes.size(); ++m) {
     const scene::Mesh& mesh = scene.meshes[m];
-    Vertex* first = vertices.data() + gpuScene.meshes[m].baseVertex;
-    parallelFor(mesh.positions.size(), 16384, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) first[i] = vertexOf(mesh, i);
-    });
+    writeVertices(mesh, vertices.data() + gpuScene.meshes[m].baseVertex);
     std::ranges::copy(mesh.elements(), indices.begin() + gpuScene.meshes[m].firstIndex);
   }
   std::vector<std::uint32_t> objectIndices(std::max<std::size_t>(scene.objects.size(), 1));
@@ -98,6 +102,20 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
   gpuScene.objectIndices =
       device.createBuffer(std::as_bytes(std::span(objectIndices)), "object indices");
   makeInput(device, gpuScene);
+}
+
+void uploadBentMeshes(gpu::Device& device, GpuScene& gpuScene) {
+  std::vector<Vertex> vertices;
+  for (const scene::Deformation& deformation : gpuScene.scene->deformations) {
+    const scene::Mesh& mesh = gpuScene.scene->meshes[deformation.mesh];
+    MeshRange& range = gpuScene.meshes[deformation.mesh];
+    if (range.version == mesh.version) continue;
+    range.version = mesh.version;
+    vertices.resize(mesh.positions.size());
+    writeVertices(mesh, vertices.data());
+    device.update(gpuScene.vertices, std::as_bytes(std::span(vertices)),
+                  static_cast<std::size_t>(range.baseVertex) * sizeof(Vertex));
+  }
 }
 
 }  // namespace lucerna::render

@@ -72,6 +72,33 @@ TEST(Animate, CubicSplineIsHermite) {
   EXPECT_NEAR(scene.nodes[1].translation.x, 4.f + 2.f * 0.125f, 1e-5f);
 }
 
+TEST(Animate, OneOfSeveralIsChosenByNameOrIndex) {
+  Scene scene = animated(AnimationPath::Translation, Interpolation::Step, {0}, {{1, 0, 0, 0}});
+  scene.animations.push_back(scene.animations[0]);
+  scene.animations[1].name = "walk";
+  scene.animations[1].channels[0].values[0] = vec4(2, 0, 0, 0);
+  const auto place = [&](const std::string& choice) {
+    EXPECT_TRUE(chooseAnimation(scene, choice)) << choice;
+    scene.nodes[1].translation.x = 0.f;
+    animate(scene, 0.f);
+    return scene.nodes[1].translation.x;
+  };
+  EXPECT_EQ(place("walk"), 2.f);
+  EXPECT_EQ(place("a"), 1.f);
+  EXPECT_EQ(place("1"), 2.f);
+  EXPECT_EQ(place("none"), 0.f);
+  place("0");
+  for (const std::string wrong : {"wlak", "2", "-1", "1x", ""}) {
+    const Status chosen = chooseAnimation(scene, wrong);
+    ASSERT_FALSE(chosen) << wrong;
+    EXPECT_EQ(chosen.error().kind, ErrorKind::Usage);
+    EXPECT_THAT(chosen.error().message, testing::HasSubstr("it has 0 'a', 1 'walk'"));
+  }
+  EXPECT_TRUE(scene.animations[0].playing);  // an error changes nothing
+  scene.animations.clear();
+  EXPECT_THAT(chooseAnimation(scene, "0").error().message, testing::HasSubstr("it has none"));
+}
+
 TEST(View, LooksAlongMinusZWithReversedDepth) {
   Scene scene;
   Camera camera;

@@ -50,7 +50,11 @@ void append(Scene& scene, Scene part, const Node& place, std::optional<std::size
   for (Object& object : part.objects) {
     shift(object.node, nodes);
     shift(object.material, materials.value_or(scene.materials.size()));
+    shift(object.skin, scene.skins.size());
+    shift(object.morphNode, nodes);
   }
+  for (Skin& skin : part.skins)
+    for (std::uint32_t& joint : skin.joints) shift(joint, nodes);
   for (Light& light : part.lights) below(light.node);
   for (Camera& camera : part.cameras) below(camera.node);
   for (Animation& animation : part.animations)
@@ -65,6 +69,7 @@ void append(Scene& scene, Scene part, const Node& place, std::optional<std::size
   if (!materials) move(scene.materials, part.materials);
   move(scene.textures, part.textures);
   move(scene.objects, part.objects);
+  move(scene.skins, part.skins);
   move(scene.lights, part.lights);
   move(scene.cameras, part.cameras);
   move(scene.animations, part.animations);
@@ -81,10 +86,15 @@ void moveShared(Scene& scene, std::vector<Mesh>& meshes, std::vector<Texture>& t
 std::uint64_t bytesOf(const Scene& scene) {
   std::uint64_t bytes = scene.objects.size() * sizeof(Object);
   bytes += bytesOfNamed(scene.nodes) + bytesOfNamed(scene.materials) + bytesOfNamed(scene.lights) +
-           bytesOfNamed(scene.cameras) + bytesOfNamed(scene.animations);
+           bytesOfNamed(scene.cameras) + bytesOfNamed(scene.animations) +
+           bytesOfNamed(scene.skins);
+  for (const Node& node : scene.nodes) bytes += node.weights.size() * sizeof(float);
+  for (const Skin& skin : scene.skins)
+    bytes += skin.joints.size() * (sizeof(std::uint32_t) + sizeof(mat4));
   for (const Animation& animation : scene.animations)
     for (const AnimationChannel& channel : animation.channels)
-      bytes += sizeof(AnimationChannel) + channel.times.size() * sizeof(float) +
+      bytes += sizeof(AnimationChannel) +
+               (channel.times.size() + channel.weights.size()) * sizeof(float) +
                channel.values.size() * sizeof(vec4);
   return bytes;
 }

@@ -34,6 +34,23 @@ Error fault(const char* kind, std::size_t index, const char* what) {
   return error(ErrorKind::Input, "{} {}: {}", kind, index, what);
 }
 
+// Morph targets and joints.
+Status checkBending(const Mesh& mesh, std::size_t index) {
+  const std::size_t count = mesh.positions.size();
+  const auto good = [&](const auto& stream) {
+    return (stream.empty() || stream.size() == count) && finiteStream(stream);
+  };
+  for (const MorphTarget& target : mesh.targets)
+    if (!good(target.positions) || !good(target.normals) || !good(target.tangents) ||
+        !good(target.texCoords[0]) || !good(target.texCoords[1]) || !good(target.colors))
+      return fault("mesh", index, "a morph target is not as long as the positions, or not finite");
+  const Influences& influences = mesh.influences;
+  if (influences.joints.size() != count * influences.perVertex ||
+      influences.weights.size() != count * influences.perVertex || !finite(influences.weights))
+    return fault("mesh", index, "joints or weights are not as many as stated, or not finite");
+  return {};
+}
+
 Status checkMesh(const Mesh& mesh, std::size_t index) {
   const std::size_t count = mesh.positions.size();
   const auto fits = [&](const auto& stream) { return stream.empty() || stream.size() == count; };
@@ -49,7 +66,7 @@ Status checkMesh(const Mesh& mesh, std::size_t index) {
       !finiteStream(mesh.tangents) || !finiteStream(mesh.texCoords[0]) ||
       !finiteStream(mesh.texCoords[1]))
     return fault("mesh", index, "a vertex holds a value that is not a finite number");
-  return {};
+  return checkBending(mesh, index);
 }
 
 bool goodSlot(const TextureSlot& slot, std::size_t textureCount) {
@@ -82,16 +99,37 @@ Status checkNode(const Node& node, std::size_t index) {
 }
 
 Status checkChannel(const AnimationChannel& channel, std::size_t index, std::size_t nodeCount) {
-  const std::size_t perKey = channel.interpolation == Interpolation::CubicSpline ? 3 : 1;
+  const std::size_t keys =
+      channel.times.size() * (channel.interpolation == Interpolation::CubicSpline ? 3 : 1);
   if (channel.node >= nodeCount) return fault("animation", index, "a node is out of range");
-  if (channel.values.size() != perKey * channel.times.size())
-    return fault("animation", index, "keys and values differ in number");
-  if (!finite(channel.times) || !finiteStream(channel.values))
+  const bool fits = channel.path == AnimationPath::Weights
+                        ? keys > 0 && channel.weights.size() % keys == 0
+                        : channel.values.size() == keys;
+  if (!fits) return fault("animation", index, "keys and values differ in number");
+  if (!finite(channel.times) || !finiteStream(channel.values) || !finite(channel.weights))
     return fault("animation", index, "a key is not a finite number");
   for (std::size_t i = 1; i < channel.times.size(); ++i)
     if (channel.times[i] <= channel.times[i - 1])
       return fault("animation", index, "times do not rise");
   return {};
+}
+
+Status checkSkin(const Skin& skin, std::size_t index, std::size_t nodeCount) {
+  for (const std::uint32_t joint : skin.joints)
+    if (joint >= nodeCount) return fault("skin", index, "a joint is out of range");
+  if (skin.jointFromMesh.size() != skin.joints.size() || !finiteStream(skin.jointFromMesh))
+    return fault("skin", index, "its matrices are not one a joint, or not finite");
+  return {};
+}
+
+// Its skin has all joints that its mesh follows.
+bool goodSkin(const Scene& scene, const Object& object) {
+  if (object.morphNode != kNone && object.morphNode >= scene.nodes.size()) return false;
+  if (object.skin == kNone) return true;
+  if (object.skin >= scene.skins.size()) return false;
+  const auto& joints = scene.meshes[object.mesh].influences.joints;
+  const auto highest = std::max_element(joints.begin(), joints.end());
+  return highest == joints.end() || *highest < scene.skins[object.skin].joints.size();
 }
 
 Status checkLight(const Light& light, std::size_t index, std::size_t nodeCount) {
@@ -114,11 +152,14 @@ Status checkScene(const Scene& scene, std::size_t textureCount) {
     LUCERNA_TRY_VOID(checkMaterial(scene.materials[i], i, textureCount));
   for (std::size_t i = 0; i < scene.nodes.size(); ++i)
     LUCERNA_TRY_VOID(checkNode(scene.nodes[i], i));
+  for (std::size_t i = 0; i < scene.skins.size(); ++i)
+    LUCERNA_TRY_VOID(checkSkin(scene.skins[i], i, scene.nodes.size()));
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     const Object& object = scene.objects[i];
     if (object.node >= scene.nodes.size() || object.mesh >= scene.meshes.size() ||
         (object.material != kNone && object.material >= scene.materials.size()))
       return fault("object", i, "its node, mesh or material is out of range");
+    if (!goodSkin(scene, object)) return fault("object", i, "its skin or its joints do not exist");
   }
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     LUCERNA_TRY_VOID(checkLight(scene.lights[i], i, scene.nodes.size()));

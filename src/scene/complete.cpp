@@ -79,6 +79,7 @@ void complete(Scene& scene) {
     if (mesh.bounds.empty()) addBounds(mesh);
   }
   addTangents(scene);
+  addDeformations(scene);
   updateTransforms(scene);
   if (scene.cameras.empty()) addFittingCamera(scene);
   // A scene with ambient light only is meant to look so.

@@ -36,14 +36,8 @@ Status checkReadable(const fs::path& path) {
 }
 
 // The clips of a file are alternatives (walk, run, ...): together they would mix their poses.
-void keepFirstClip(Scene& scene) {
-  auto& clips = scene.animations;
-  if (clips.size() < 2) return;
-  std::string others;
-  for (std::size_t i = 1; i < clips.size(); ++i) others += (i > 1 ? ", " : "") + clips[i].name;
-  scene.warnings.push_back("of several animations only '" + clips[0].name +
-                           "' is played, not: " + others);
-  clips.resize(1);
+void playFirstClip(Scene& scene) {
+  for (std::size_t i = 1; i < scene.animations.size(); ++i) scene.animations[i].playing = false;
 }
 
 // A scene with meshes and textures of its own.
@@ -73,18 +67,19 @@ Result<Scene> readScene(const std::string& pathOrName, SceneLoad& load) {
   const bool isFile = !pathOrName.starts_with("builtin:");
   if (isFile) LUCERNA_TRY_VOID(checkReadable(pathOrName));
   Scene scene;
+  scene.name = fs::path(pathOrName).filename().string();
   if (isFile && lowerExtension(pathOrName) == ".json") {
     LUCERNA_TRY_VOID(addSceneJson(scene, pathOrName, load));
   } else {
     LUCERNA_TRY(whole, readWhole(pathOrName));
+    if (whole.name.empty()) whole.name = std::move(scene.name);
     scene = std::move(whole);
     moveShared(scene, load.meshes, load.textures);
     if (isFile) {
-      keepFirstClip(scene);
+      playFirstClip(scene);
       LUCERNA_TRY_VOID(readBeside(scene, pathOrName, load));
     }
   }
-  if (scene.name.empty()) scene.name = fs::path(pathOrName).filename().string();
   return scene;
 }
 

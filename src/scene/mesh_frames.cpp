@@ -23,6 +23,19 @@ std::uint32_t duplicateVertex(Mesh& mesh, std::uint32_t vertex) {
   duplicate(mesh.normals, vertex);
   duplicate(mesh.colors, vertex);
   for (auto& texCoords : mesh.texCoords) duplicate(texCoords, vertex);
+  for (MorphTarget& target : mesh.targets) {
+    duplicate(target.positions, vertex);
+    duplicate(target.normals, vertex);
+    duplicate(target.tangents, vertex);
+    duplicate(target.colors, vertex);
+    for (auto& texCoords : target.texCoords) duplicate(texCoords, vertex);
+  }
+  Influences& influences = mesh.influences;
+  for (std::uint32_t i = 0; i < influences.perVertex; ++i) {
+    const std::uint32_t of = vertex * influences.perVertex + i;
+    duplicate(influences.joints, of);
+    duplicate(influences.weights, of);
+  }
   return static_cast<std::uint32_t>(mesh.positions.size() - 1);
 }
 

@@ -37,6 +37,7 @@ void updateTransforms(Scene& scene) {
                              ? node.parentFromNode()
                              : scene.nodes[node.parent].worldFromNode * node.parentFromNode();
   }
+  updateDeformations(scene);
   for (Object& object : scene.objects)
     object.boundsW =
         transformed(scene.nodes[object.node].worldFromNode, scene.meshes[object.mesh].bounds);

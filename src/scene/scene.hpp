@@ -13,7 +13,9 @@
 #include <vector>
 
 #include "core/math/bounds.hpp"
+#include "core/result.hpp"
 #include "image/image.hpp"
+#include "scene/deform.hpp"
 #include "scene/light.hpp"
 #include "scene/material.hpp"
 
@@ -35,6 +37,12 @@ struct Mesh {
   std::vector<std::uint32_t> points;  // one a point
   Aabb bounds;                        // of the positions that the elements use
 
+  // What bends it; the streams above are its rest pose.
+  std::vector<MorphTarget> targets;
+  Influences influences;
+  bool flat = false;          // each triangle has its own vertices, and its own normal when bent
+  std::uint32_t version = 0;  // raised when its vertices change
+
   std::size_t triangleCount() const { return indices.size() / 3; }
   // Whichever of the three it is made of.
   const std::vector<std::uint32_t>& elements() const {
@@ -48,6 +56,7 @@ struct Node {
   vec3 translation{0.f};
   quat rotation{1.f, 0.f, 0.f, 0.f};
   vec3 scale{1.f};
+  std::vector<float> weights;  // of its meshes' morph targets; absent: 0
   // If the file gave a matrix that translation, rotation and scale cannot express (shear).
   std::optional<mat4> matrix;
   mat4 worldFromNode{1.f};  // kept by updateTransforms()
@@ -59,6 +68,8 @@ struct Node {
 struct Object {
   std::uint32_t node = kNone, mesh = kNone, material = kNone;
   Aabb boundsW;  // kept by updateTransforms()
+  std::uint32_t skin = kNone;
+  std::uint32_t morphNode = kNone;  // whose weights its mesh's targets take; kNone: its node
 };
 
 struct Camera {
@@ -80,7 +91,7 @@ struct Texture {
   bool nearest = false;  // magnification without filtering
 };
 
-enum class AnimationPath { Translation, Rotation, Scale };
+enum class AnimationPath { Translation, Rotation, Scale, Weights };
 enum class Interpolation { Step, Linear, CubicSpline };
 
 struct AnimationChannel {
@@ -88,12 +99,16 @@ struct AnimationChannel {
   AnimationPath path = AnimationPath::Translation;
   Interpolation interpolation = Interpolation::Linear;
   std::vector<float> times;  // s, rising
-  std::vector<vec4> values;  // one a key (three for CubicSpline); rotation as x, y, z, w
+  // One a key (three for CubicSpline); rotation as x, y, z, w. Of weights: see below.
+  std::vector<vec4> values;
+  // One a key (three for CubicSpline) and morph target, the targets of a key together.
+  std::vector<float> weights = {};
 };
 
 struct Animation {
   std::string name;
   std::vector<AnimationChannel> channels;
+  bool playing = true;
   float duration() const;  // s; it repeats
 };
 
@@ -115,11 +130,13 @@ struct Scene {
   std::vector<Texture> textures;
   std::vector<Node> nodes;
   std::vector<Object> objects;
+  std::vector<Skin> skins;
+  std::vector<Deformation> deformations;  // made by complete()
   std::vector<Light> lights;
   // Of lights: the one that complete() added. It goes with the camera that is looked through.
   std::uint32_t headlight = kNone;
   std::vector<Camera> cameras;
-  std::vector<Animation> animations;  // they play at once; of each file the first is here
+  std::vector<Animation> animations;  // those that play do so at once; of each file the first does
   Background background;
   vec3 ambient{0.f};     // radiance-like: a white surface shows it (IA of the Phong model)
   float exposure = 0.f;  // EV: linear colours are multiplied by 2^exposure before tone mapping
@@ -130,11 +147,16 @@ struct Scene {
   std::size_t triangleCount() const;  // as drawn: meshes count once per object
 };
 
-// World matrices and object boxes from the nodes' local transforms.
+// World matrices, bent meshes and object boxes from the nodes' local transforms and weights.
 void updateTransforms(Scene& scene);
-// Sets the nodes' local transforms to time t (s) of all animations, then updateTransforms().
-// Returns the indices of objects whose world matrix changed.
+// Sets the nodes' transforms and weights to time t (s) of the animations that play, then
+// updateTransforms().
+// Returns the indices of objects whose world matrix or mesh changed.
 std::vector<std::uint32_t> animate(Scene& scene, float time);
+
+// Lets one animation play and no other: a name, an index, or "none". ErrorKind::Usage says what there
+// is to choose from, and changes nothing.
+Status chooseAnimation(Scene& scene, const std::string& choice);
 
 // The lights that are on, where they stand.
 std::vector<PlacedLight> placeLights(const Scene& scene);

@@ -53,6 +53,19 @@ void readScale(const JsonValue& include, Node& node) {
   }
 }
 
+// "animation": the name or the index of the one that plays, or "none".
+void readAnimation(const JsonValue& owner, Scene& scene) {
+  if (!owner.has("animation")) return;
+  const JsonValue animation = owner.at("animation");
+  std::string choice;
+  if (animation.isNumber())
+    choice = animation.found();
+  else if (!animation.text(choice))
+    return;
+  if (const Status chosen = chooseAnimation(scene, choice); !chosen)
+    animation.fault(chosen.error().message);
+}
+
 // The scene to include, read when it is met for the first time. Null if it is faulty, which is told
 // once.
 Scene* includedScene(const JsonValue& file, const std::string& name, const fs::path& folder,
@@ -86,7 +99,7 @@ void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scen
                   SceneLoad& load) {
   std::map<const Scene*, std::size_t> materials;  // where those of an included scene begin
   for (const JsonValue& entry : includes.elements()) {
-    if (!entry.object({"file", "translation", "rotation", "scale"})) continue;
+    if (!entry.object({"file", "translation", "rotation", "scale", "animation"})) continue;
     Node node;
     if (!entry.has("file")) entry.wrong("no \"file\"", "the scene to include");
     if (!entry.read("file", node.name)) continue;
@@ -96,7 +109,9 @@ void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scen
     Scene* part = includedScene(entry.at("file"), node.name, folder, load);
     if (!part) continue;
     const auto [known, isNew] = materials.emplace(part, scene.materials.size());
-    append(scene, *part, node, isNew ? std::nullopt : std::optional(known->second));
+    Scene copy = *part;
+    readAnimation(entry, copy);
+    append(scene, std::move(copy), node, isNew ? std::nullopt : std::optional(known->second));
     part->warnings.clear();
   }
 }
@@ -122,10 +137,11 @@ Status enter(const fs::path& path, SceneLoad& load) {
 
 void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoad& load) {
   if (!root.object({"$schema", "lucerna", "include", "materials", "lights", "lightSettings",
-                    "cameras", "background", "ambient", "exposure"}))
+                    "cameras", "background", "ambient", "exposure", "animation"}))
     return;
   root.format(kFormat);
   if (root.has("include")) readIncludes(root.at("include"), folder, scene, load);
+  readAnimation(root, scene);
   if (root.has("materials")) readMaterials(root.at("materials"), scene);
   if (root.has("lightSettings")) readLightSettings(root.at("lightSettings"), scene);
   if (root.has("lights")) readLights(root.at("lights"), scene);

@@ -238,5 +238,43 @@ TEST_F(SceneJson, TheExampleOfTheDocumentationIsGood) {
   EXPECT_EQ(scene->background.color, vec3(0.3f, 0.45f, 0.7f));
 }
 
+// Two clips that put the node at x = 1 and x = 2.
+constexpr const char* kClips = R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}],
+  "nodes": [{"name": "n"}],
+  "buffers": [{"byteLength": 28, "uri": "data:;base64,AAAAAAAAgD8AAAAAAAAAAAAAAEAAAAAAAAAAAA=="}],
+  "bufferViews": [{"buffer": 0, "byteLength": 28}],
+  "accessors": [
+    {"bufferView": 0, "componentType": 5126, "count": 1, "type": "SCALAR"},
+    {"bufferView": 0, "byteOffset": 4, "componentType": 5126, "count": 1, "type": "VEC3"},
+    {"bufferView": 0, "byteOffset": 16, "componentType": 5126, "count": 1, "type": "VEC3"}],
+  "animations": [
+    {"name": "one", "samplers": [{"input": 0, "output": 1}],
+     "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]},
+    {"name": "two", "samplers": [{"input": 0, "output": 2}],
+     "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]})";
+
+TEST_F(SceneJson, ChoosesAnimationsByFileAndByInclude) {
+  write("clips.gltf", kClips);
+  const auto places = [&](const std::string& file) {
+    auto scene = loadScene(path(file));
+    EXPECT_TRUE(scene) << scene.error().message;
+    animate(*scene, 0.f);
+    std::vector<float> found;
+    for (const Node& node : scene->nodes)
+      if (node.name == "n") found.push_back(node.translation.x);
+    return found;
+  };
+  EXPECT_EQ(places("clips.gltf"), std::vector<float>{1.f});  // the first, unless ...
+  write("clips.lucerna.json", R"({"lucerna": "scene/1", "animation": "two"})");
+  EXPECT_EQ(places("clips.gltf"), std::vector<float>{2.f});
+  write("s.json", R"({"lucerna": "scene/1", "include": [
+    {"file": "clips.gltf"}, {"file": "clips.gltf", "animation": "one"},
+    {"file": "clips.gltf", "animation": 1}, {"file": "clips.gltf", "animation": "none"}]})");
+  EXPECT_EQ(places("s.json"), (std::vector<float>{2.f, 1.f, 2.f, 0.f}));
+  EXPECT_THAT(faultsOf(R"({"lucerna": "scene/1",
+    "include": [{"file": "clips.gltf", "animation": "tow"}]})"),
+              AllOf(HasSubstr("/include/0/animation"), HasSubstr("did you mean 'two'?")));
+}
+
 }  // namespace
 }  // namespace lucerna::scene

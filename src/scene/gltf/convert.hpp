@@ -14,23 +14,46 @@ struct Part {
   std::uint32_t mesh = kNone, material = kNone;
 };
 
+// What one glTF mesh became; primitives that cannot be drawn are absent.
+struct MeshParts {
+  std::vector<Part> parts;
+  std::size_t targets = 0;     // morph targets of each part
+  std::vector<float> weights;  // of the targets, where a node states none; empty: 0
+};
+
+// A glTF node with a mesh and a skin. Its joints may stand anywhere in the hierarchy, so its
+// objects are made when all nodes are there.
+struct SkinnedNode {
+  Place place;
+  std::uint32_t node = kNone, mesh = kNone, skin = kNone;  // of the scene; of the file; of the file
+};
+
 struct Context {
   Document& document;
   std::vector<Accessor> accessors;
   Scene& scene;
-  std::vector<std::vector<Part>> parts;  // by glTF mesh; primitives that cannot be drawn are absent
+  std::vector<MeshParts> meshes;          // by glTF mesh
   std::vector<std::uint32_t> sceneNodes;  // by glTF node; kNone outside the drawn scene
+  std::vector<SkinnedNode> skinnedNodes;
   std::uint32_t defaultMaterial = kNone;  // made when the first primitive needs it
 };
 
-// Scene::meshes and Context::parts: triangle lists of all primitives; equal primitives share a
-// mesh.
+// Scene::meshes and Context::meshes: lists of triangles, lines or points of all primitives; equal
+// primitives share a mesh.
 void readMeshes(Context& context);
+// The numbers of "weights": as many as there are targets, or none.
+std::vector<float> readMorphWeights(const Place& owner, std::size_t targets);
 // Scene::materials (one for each glTF material, at the same index) and Scene::textures.
 void readMaterials(Context& context);
 // Scene::nodes (of the file's default scene, parents first), objects, cameras and lights.
 void readNodes(Context& context);
-// Scene::animations: translation, rotation and scale of nodes.
+// An object for each part of a glTF mesh, with its weights stated by `morphNode` of the scene.
+// Returns the first one's index.
+std::size_t addObjects(Context& context, std::uint32_t gltfMesh, std::uint32_t node,
+                       std::uint32_t morphNode);
+// Scene::skins, and the objects of Context::skinnedNodes.
+void readSkins(Context& context);
+// Scene::animations: transforms and morph weights of nodes.
 void readAnimations(Context& context);
 
 }  // namespace lucerna::scene::gltf

@@ -1,4 +1,4 @@
-// Animations of nodes.
+// Animations of nodes and of their meshes' morph targets.
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -49,22 +49,31 @@ std::vector<float> readTimes(Context& context, const Accessor& accessor) {
   return times;
 }
 
-// The sampler's keys; the channel's path is set.
-void readKeys(Context& context, const Place& sampler, AnimationChannel& channel) {
+// The sampler's keys; the channel's path is set. targets: of the node's mesh.
+void readKeys(Context& context, const Place& sampler, std::size_t targets,
+              AnimationChannel& channel) {
   channel.interpolation = readInterpolation(sampler);
   channel.times = readTimes(context, accessorAt(context, sampler, "input"));
   const Accessor& output = accessorAt(context, sampler, "output");
-  const int components = channel.path == AnimationPath::Rotation ? 4 : 3;
+  const bool weights = channel.path == AnimationPath::Weights;
+  const int components = weights ? 1 : channel.path == AnimationPath::Rotation ? 4 : 3;
   if (output.components != components) {
-    output.place.refuse(typeName(output), fmt::format("VEC{} for this animation", components));
+    output.place.refuse(typeName(output), fmt::format("{} for this animation",
+                                                      weights ? std::string("SCALAR")
+                                                              : fmt::format("VEC{}", components)));
   }
   const std::size_t perKey = channel.interpolation == Interpolation::CubicSpline ? 3 : 1;
-  if (output.count != channel.times.size() * perKey) {
+  const std::size_t perTime = weights ? perKey * targets : perKey;
+  if (output.count != channel.times.size() * perTime) {
     output.place.refuse(fmt::format("{} values for {} times", output.count, channel.times.size()),
-                        fmt::format("{} a time", perKey));
+                        fmt::format("{} a time", perTime));
   }
-  const auto values = readFloats(context.document, output, 4);
+  auto values = readFloats(context.document, output, weights ? 1 : 4);
   requireFinite(values, output);
+  if (weights) {
+    channel.weights = std::move(values);
+    return;
+  }
   channel.values.resize(output.count);
   std::memcpy(&channel.values[0].x, values.data(), values.size() * sizeof(float));
 }
@@ -73,12 +82,14 @@ std::optional<AnimationPath> pathNamed(const std::string& name) {
   if (name == "translation") return AnimationPath::Translation;
   if (name == "rotation") return AnimationPath::Rotation;
   if (name == "scale") return AnimationPath::Scale;
+  if (name == "weights") return AnimationPath::Weights;
   return std::nullopt;
 }
 
 }  // namespace
 
 void readAnimations(Context& context) {
+  const auto nodes = context.document.root().elements("nodes");
   for (const Place& place : context.document.root().elements("animations")) {
     Animation animation;
     animation.name = place.text("name", place.pointer().substr(1));
@@ -95,10 +106,18 @@ void readAnimations(Context& context) {
       const auto sampler = channelPlace.at("sampler").index(samplers.size(), "samplers");
       const auto node = target.index("node", context.sceneNodes.size(), "nodes");
       if (node == kNone || context.sceneNodes[node] == kNone) continue;  // outside the scene
+      const auto mesh = nodes[node].index("mesh", context.meshes.size(), "meshes");
+      const std::size_t targets = mesh == kNone ? 0 : context.meshes[mesh].targets;
+      if (path == AnimationPath::Weights && targets == 0) {
+        context.document.warn(
+            fmt::format("{} moves the weights of node {}, which has no morph targets",
+                        channelPlace.pointer(), node));
+        continue;
+      }
       AnimationChannel channel;
       channel.node = context.sceneNodes[node];
       channel.path = *path;
-      readKeys(context, samplers[sampler], channel);
+      readKeys(context, samplers[sampler], targets, channel);
       animation.channels.push_back(std::move(channel));
     }
     if (!animation.channels.empty()) context.scene.animations.push_back(std::move(animation));

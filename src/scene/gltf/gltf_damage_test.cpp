@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 // One triangle (positions 0 to 35, indices 36 to 41, two key times 44 to 51, three times two
-// values 52 to 75), and everything else that the reader knows.
+// values 52 to 75, joints 76 to 87, their weights 88 to 135), and everything else that the reader
+// knows.
 json exampleScene() {
   return json::parse(R"({
     "asset": {"version": "2.0"}, "scene": 0,
@@ -32,14 +33,17 @@ json exampleScene() {
       {"children": [1, 2], "name": "root", "translation": [1, 2, 3], "rotation": [0, 0, 0, 1]},
       {"mesh": 0, "matrix": [1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1], "camera": 0, "skin": 0,
        "extensions": {"KHR_lights_punctual": {"light": 0}}},
-      {"mesh": 0, "scale": [1, 1, 1], "camera": 1,
+      {"mesh": 0, "scale": [1, 1, 1], "camera": 1, "weights": [0.5],
        "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 4}}}}],
     "cameras": [
       {"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1, "zfar": 10}},
       {"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 10}}],
     "meshes": [{"name": "m", "primitives": [
-      {"attributes": {"POSITION": 0, "NORMAL": 0, "COLOR_0": 0}, "indices": 1, "material": 0},
-      {"attributes": {"POSITION": 4}, "mode": 5}]}],
+      {"attributes": {"POSITION": 0, "NORMAL": 0, "COLOR_0": 0, "JOINTS_0": 5, "WEIGHTS_0": 6},
+       "indices": 1, "material": 0, "targets": [{"POSITION": 0, "NORMAL": 4}]},
+      {"attributes": {"POSITION": 4}, "mode": 5, "targets": [{"POSITION": 0}]}],
+      "weights": [1]}],
+    "skins": [{"joints": [0, 2], "inverseBindMatrices": 7}],
     "materials": [{"alphaMode": "MASK", "alphaCutoff": 0.5, "doubleSided": true,
       "emissiveFactor": [1, 1, 1], "normalTexture": {"index": 0, "scale": 1},
       "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 2}},
@@ -49,8 +53,10 @@ json exampleScene() {
     "textures": [{"source": 0, "sampler": 0}],
     "samplers": [{"wrapS": 33071, "wrapT": 10497, "magFilter": 9728}],
     "images": [{"bufferView": 0, "mimeType": "image/png"}],
-    "animations": [{"samplers": [{"input": 2, "output": 3, "interpolation": "LINEAR"}],
-      "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}]}],
+    "animations": [{"samplers": [{"input": 2, "output": 3, "interpolation": "LINEAR"},
+                                 {"input": 2, "output": 2}],
+      "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}},
+                   {"sampler": 1, "target": {"node": 2, "path": "weights"}}]}],
     "accessors": [
       {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"},
       {"bufferView": 0, "byteOffset": 36, "componentType": 5123, "count": 3, "type": "SCALAR"},
@@ -58,17 +64,24 @@ json exampleScene() {
       {"bufferView": 0, "byteOffset": 52, "componentType": 5126, "count": 2, "type": "VEC3"},
       {"componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1,
         "indices": {"bufferView": 0, "byteOffset": 36, "componentType": 5121},
-        "values": {"bufferView": 0, "byteOffset": 52}}}],
-    "bufferViews": [{"buffer": 0, "byteLength": 76}],
-    "buffers": [{"byteLength": 76}]})");
+        "values": {"bufferView": 0, "byteOffset": 52}}},
+      {"bufferView": 0, "byteOffset": 76, "componentType": 5121, "count": 3, "type": "VEC4"},
+      {"bufferView": 0, "byteOffset": 88, "componentType": 5126, "count": 3, "type": "VEC4"},
+      {"bufferView": 0, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "MAT4"}],
+    "bufferViews": [{"buffer": 0, "byteLength": 136}],
+    "buffers": [{"byteLength": 136}]})");
 }
 
 std::string exampleBytes() {
-  std::string bytes(76, '\0');
+  std::string bytes(136, '\0');
   const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
   const std::uint16_t indices[3] = {0, 1, 2};
   const float times[2] = {0, 1};
   const float values[6] = {0, 0, 0, 1, 2, 3};
+  const std::uint8_t joints[12] = {0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0};
+  const float weights[12] = {0.5f, 0.5f, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  std::memcpy(&bytes[76], joints, 12);
+  std::memcpy(&bytes[88], weights, 48);
   std::memcpy(&bytes[0], positions, 36);
   std::memcpy(&bytes[36], indices, 6);
   std::memcpy(&bytes[44], times, 8);
@@ -158,10 +171,11 @@ class GltfDamage : public testing::Test {
       EXPECT_THAT(scene.error().message, testing::HasSubstr("damaged.glb: "));
       return false;
     }
-    updateTransforms(*scene);
     const Status sound = checkScene(*scene, scene->textures.size());
     EXPECT_TRUE(sound) << (sound ? "" : sound.error().message);
     for (const Texture& texture : scene->textures) EXPECT_NE(texture.image, nullptr);
+    complete(*scene);
+    animate(*scene, 0.5f);
     return true;
   }
 

@@ -121,11 +121,12 @@ TEST_F(GltfFile, QuantizedMeshesAreScaledByTheirNode) {
   json& primitive = root_["meshes"][0]["primitives"][0];
   root_["extensionsUsed"] = root_["extensionsRequired"] = {"KHR_mesh_quantization"};
   primitive["attributes"]["POSITION"] =
-      accessor<std::int16_t>({0, 0, -8, 0, 16, 0, 0, 0, 0, 16, 8, 0}, 5122, "VEC3", 3);
+      accessor<std::int16_t>({0, 0, -8, 16, 0, 0, 0, 16, 8, 16, 16, 0}, 5122, "VEC3", 3);
   primitive["attributes"]["NORMAL"] =
       accessor<std::int8_t>({0, 0, 127, 0, 0, 127, 0, 0, 127, 0, 0, -128}, 5120, "VEC3", 3, true);
   primitive["attributes"]["TEXCOORD_0"] =
       accessor<std::uint8_t>({0, 2, 4, 8, 16, 32, 64, 128}, 5121, "VEC2", 2);
+  primitive["mode"] = 5;  // a strip
   root_["nodes"][0]["scale"] = {0.125, 0.125, 0.125};
   const auto scene = read();
   ASSERT_TRUE(scene) << scene.error().message;

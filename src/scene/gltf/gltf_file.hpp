@@ -16,8 +16,8 @@ class GltfFile : public testing::Test {
  protected:
   GltfFile() {
     const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ =
-        std::filesystem::temp_directory_path() / (std::string("lucerna_gltf_") + info->name());
+    folder_ = std::filesystem::temp_directory_path() /
+              (std::string("lucerna_gltf_") + info->test_suite_name() + info->name());
     std::filesystem::create_directories(folder_);
     root_["asset"]["version"] = "2.0";
     root_["scene"] = 0;

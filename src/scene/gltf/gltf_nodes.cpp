@@ -57,12 +57,10 @@ class NodeReader {
   std::vector<std::uint32_t> roots() const;
   void visit(std::uint32_t node, std::uint32_t parent);
   void readTransform(const Place& place, Node& node);
-  void addObjects(std::uint32_t gltfMesh, std::uint32_t node);
+  void addMesh(const Place& place, std::uint32_t gltfMesh, std::uint32_t node);
   void addInstances(const Place& instancing, std::uint32_t gltfMesh, std::uint32_t node);
   void addCamera(const Place& place, std::uint32_t node);
   void addLight(const Place& place, std::uint32_t node);
-  std::uint32_t defaultMaterial();
-
   Context& context_;
   Document& document_;
   std::vector<Place> nodes_, cameras_, lights_;
@@ -150,21 +148,20 @@ void NodeReader::readTransform(const Place& place, Node& node) {
   node.rotation = glm::normalize(quat(rotation.w, rotation.x, rotation.y, rotation.z));
 }
 
-std::uint32_t NodeReader::defaultMaterial() {
-  if (context_.defaultMaterial == kNone) {
-    context_.defaultMaterial = static_cast<std::uint32_t>(context_.scene.materials.size());
-    context_.scene.materials.emplace_back().name = "default";
-  }
-  return context_.defaultMaterial;
-}
-
-void NodeReader::addObjects(std::uint32_t gltfMesh, std::uint32_t node) {
-  for (const Part& part : context_.parts[gltfMesh]) {
-    Object object;
-    object.node = node;
-    object.mesh = part.mesh;
-    object.material = part.material == kNone ? defaultMaterial() : part.material;
-    context_.scene.objects.push_back(object);
+void NodeReader::addMesh(const Place& place, std::uint32_t gltfMesh, std::uint32_t node) {
+  const MeshParts& mesh = context_.meshes[gltfMesh];
+  auto weights = readMorphWeights(place, mesh.targets);
+  context_.scene.nodes[node].weights = weights.empty() ? mesh.weights : std::move(weights);
+  const auto skin = place.index("skin", document_.root().elements("skins").size(), "skins");
+  const auto instancing = place.extension("EXT_mesh_gpu_instancing");
+  if (skin != kNone) {
+    context_.skinnedNodes.push_back({place, node, gltfMesh, skin});
+    if (instancing)
+      document_.warn(place.pointer() + " has a skin and instances: the instances are left out");
+  } else if (instancing) {
+    addInstances(*instancing, gltfMesh, node);
+  } else {
+    addObjects(context_, gltfMesh, node, node);
   }
 }
 
@@ -206,7 +203,7 @@ void NodeReader::addInstances(const Place& instancing, std::uint32_t gltfMesh, s
       const quat rotation(r[3], r[0], r[1], r[2]);
       if (glm::length(rotation) > 1e-6f) instance.rotation = glm::normalize(rotation);
     }
-    addObjects(gltfMesh, addNode(context_.scene, std::move(instance)));
+    addObjects(context_, gltfMesh, addNode(context_.scene, std::move(instance)), node);
   }
 }
 
@@ -273,18 +270,8 @@ void NodeReader::visit(std::uint32_t index, std::uint32_t parent) {
   const std::uint32_t made = addNode(context_.scene, std::move(node));
   context_.sceneNodes[index] = made;
 
-  const auto mesh = place.index("mesh", context_.parts.size(), "meshes");
-  if (mesh != kNone) {
-    const auto instancing = place.extension("EXT_mesh_gpu_instancing");
-    if (instancing)
-      addInstances(*instancing, mesh, made);
-    else
-      addObjects(mesh, made);
-    if (place.has("skin")) {
-      document_.warn(place.pointer() + " (" + context_.scene.nodes[made].name +
-                     ") has a skin, which is not applied: drawn in its bind pose");
-    }
-  }
+  const auto mesh = place.index("mesh", context_.meshes.size(), "meshes");
+  if (mesh != kNone) addMesh(place, mesh, made);
   const auto camera = place.index("camera", cameras_.size(), "cameras");
   if (camera != kNone) addCamera(cameras_[camera], made);
   if (const auto light = place.extension("KHR_lights_punctual")) {
@@ -317,6 +304,25 @@ void NodeReader::read() {
 }
 
 }  // namespace
+
+std::size_t addObjects(Context& context, std::uint32_t gltfMesh, std::uint32_t node,
+                       std::uint32_t morphNode) {
+  Scene& scene = context.scene;
+  const std::size_t first = scene.objects.size();
+  for (const Part& part : context.meshes[gltfMesh].parts) {
+    if (part.material == kNone && context.defaultMaterial == kNone) {
+      context.defaultMaterial = static_cast<std::uint32_t>(scene.materials.size());
+      scene.materials.emplace_back().name = "default";
+    }
+    Object object;
+    object.node = node;
+    object.mesh = part.mesh;
+    object.material = part.material == kNone ? context.defaultMaterial : part.material;
+    object.morphNode = morphNode;
+    scene.objects.push_back(object);
+  }
+  return first;
+}
 
 void readNodes(Context& context) {
   NodeReader(context).read();

@@ -18,10 +18,11 @@ Result<Scene> readGltf(const std::filesystem::path& path, Bytes content,
   try {
     gltf::openDocument(document, path, std::move(content));
     gltf::readBuffers(document);
-    gltf::Context context{document, gltf::readAccessors(document), scene, {}, {}};
+    gltf::Context context{document, gltf::readAccessors(document), scene, {}, {}, {}};
     gltf::readMaterials(context);
     gltf::readMeshes(context);
     gltf::readNodes(context);
+    gltf::readSkins(context);
     gltf::readAnimations(context);
   } catch (const gltf::Fault& fault) {
     return error(ErrorKind::Input, "{}: {}", path.string(), fault.message);

@@ -1,0 +1,202 @@
+#include "scene/deform.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "core/math/transform.hpp"
+#include "core/parallel.hpp"
+#include "scene/scene.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+constexpr std::size_t kGrain = 4096;  // vertices
+
+// The targets that count, and the streams that any of them changes.
+struct Morph {
+  struct Part {
+    const MorphTarget* target;
+    float weight;
+  };
+  std::vector<Part> parts;
+  bool texCoords[2] = {false, false}, colors = false;
+};
+
+// Streams that some target changes are written even if its weight is 0 now: it was another before.
+Morph morphOf(const Mesh& rest, std::span<const float> weights) {
+  Morph morph;
+  for (std::size_t i = 0; i < rest.targets.size(); ++i) {
+    const MorphTarget& target = rest.targets[i];
+    for (int set = 0; set < 2; ++set) morph.texCoords[set] |= !target.texCoords[set].empty();
+    morph.colors |= !target.colors.empty();
+    if (weights[i] != 0.f) morph.parts.push_back({&target, weights[i]});
+  }
+  return morph;
+}
+
+template <typename T, typename Stream>
+T morphed(T value, const Morph& morph, std::size_t vertex, Stream stream) {
+  for (const auto& [target, weight] : morph.parts)
+    if (const auto& deltas = stream(*target); !deltas.empty()) value += weight * deltas[vertex];
+  return value;
+}
+
+u8vec4 unorm(vec4 color) {
+  return u8vec4(glm::clamp(color, 0.f, 1.f) * 255.f + 0.5f);
+}
+
+void morphSurface(const Mesh& rest, const Morph& morph, std::size_t i, Mesh& bent) {
+  for (std::size_t set = 0; set < 2; ++set)
+    if (morph.texCoords[set] && !rest.texCoords[set].empty())
+      bent.texCoords[set][i] =
+          morphed(rest.texCoords[set][i], morph, i,
+                  [&](const MorphTarget& t) -> const auto& { return t.texCoords[set]; });
+  if (morph.colors && !rest.colors.empty())
+    bent.colors[i] = unorm(morphed(vec4(rest.colors[i]) / 255.f, morph, i,
+                                   [](const MorphTarget& t) -> const auto& { return t.colors; }));
+}
+
+vec3 unitOr(vec3 v, vec3 fallback) {
+  const float square = glm::dot(v, v);
+  return square > 0.f && square < std::numeric_limits<float>::infinity() ? v / std::sqrt(square)
+                                                                         : fallback;
+}
+
+mat4 blended(const Influences& influences, std::span<const mat4> joints, std::size_t vertex) {
+  mat4 sum(0.f);
+  const std::size_t first = vertex * influences.perVertex;
+  for (std::size_t i = first; i < first + influences.perVertex; ++i)
+    if (influences.weights[i] != 0.f) sum += influences.weights[i] * joints[influences.joints[i]];
+  return sum;
+}
+
+void bendVertex(const Mesh& rest, const Morph& morph, std::span<const mat4> joints, std::size_t i,
+                Mesh& bent) {
+  vec3 position = morphed(rest.positions[i], morph, i,
+                          [](const MorphTarget& t) -> const auto& { return t.positions; });
+  vec3 normal(0.f);
+  if (!rest.normals.empty())
+    normal = morphed(rest.normals[i], morph, i,
+                     [](const MorphTarget& t) -> const auto& { return t.normals; });
+  vec3 tangent(0.f);
+  if (!rest.tangents.empty())
+    tangent = morphed(vec3(rest.tangents[i]), morph, i,
+                      [](const MorphTarget& t) -> const auto& { return t.tangents; });
+  if (!joints.empty()) {
+    const mat4 m = blended(rest.influences, joints, i);
+    position = vec3(m * vec4(position, 1.f));
+    normal = normalMatrix(mat3(m)) * normal;
+    tangent = mat3(m) * tangent;
+  }
+  bent.positions[i] = position;
+  if (!rest.normals.empty()) bent.normals[i] = unitOr(normal, rest.normals[i]);
+  if (!rest.tangents.empty())
+    bent.tangents[i] = vec4(unitOr(tangent, vec3(rest.tangents[i])), rest.tangents[i].w);
+}
+
+Aabb boundsOf(const Mesh& mesh) {
+  const auto& elements = mesh.elements();
+  std::vector<Aabb> boxes((elements.size() + kGrain - 1) / kGrain);
+  parallelFor(elements.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    Aabb& box = boxes[begin / kGrain];
+    for (std::size_t i = begin; i < end; ++i) box.grow(mesh.positions[elements[i]]);
+  });
+  Aabb bounds;
+  for (const Aabb& box : boxes) bounds.grow(box);
+  return bounds;
+}
+
+std::vector<mat4> jointMatrices(const Scene& scene, const Deformation& deformation) {
+  std::vector<mat4> matrices;
+  if (deformation.skin == kNone) return matrices;
+  const Skin& skin = scene.skins[deformation.skin];
+  const mat4 objectFromWorld = glm::inverse(scene.nodes[deformation.node].worldFromNode);
+  matrices.reserve(skin.joints.size());
+  for (std::size_t i = 0; i < skin.joints.size(); ++i)
+    matrices.push_back(objectFromWorld * scene.nodes[skin.joints[i]].worldFromNode *
+                       skin.jointFromMesh[i]);
+  return matrices;
+}
+
+std::vector<float> morphWeights(const Scene& scene, const Deformation& deformation) {
+  std::vector<float> weights = scene.nodes[deformation.morphNode].weights;
+  weights.resize(deformation.rest->targets.size(), 0.f);
+  return weights;
+}
+
+// Objects with equal keys have the same shape. The node counts only with a skin.
+using ShapeKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
+
+}  // namespace
+
+void bend(const Mesh& rest, std::span<const float> weights, std::span<const mat4> objectFromMesh,
+          Mesh& bent) {
+  const Morph morph = morphOf(rest, weights);
+  parallelFor(rest.positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      bendVertex(rest, morph, objectFromMesh, i, bent);
+      morphSurface(rest, morph, i, bent);
+    }
+  });
+  if (rest.flat) makeNormals(bent);
+  bent.bounds = boundsOf(bent);
+}
+
+void addDeformations(Scene& scene) {
+  std::vector<bool> bends, drawnAtRest(scene.meshes.size(), false);
+  for (Object& object : scene.objects) {
+    const Mesh& mesh = scene.meshes[object.mesh];
+    if (mesh.influences.perVertex == 0) object.skin = kNone;
+    if (object.morphNode == kNone) object.morphNode = object.node;
+    bends.push_back(object.skin != kNone || !mesh.targets.empty());
+    if (!bends.back()) drawnAtRest[object.mesh] = true;
+  }
+  std::map<std::uint32_t, std::shared_ptr<const Mesh>> rests;
+  std::map<ShapeKey, std::uint32_t> bentMeshes;
+  for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+    if (!bends[i]) continue;
+    Object& object = scene.objects[i];
+    const bool skinned = object.skin != kNone;
+    const ShapeKey key{object.mesh, object.skin, object.morphNode, skinned ? object.node : kNone};
+    const auto [known, isNew] = bentMeshes.emplace(key, object.mesh);
+    if (isNew) {
+      std::shared_ptr<const Mesh>& rest = rests[object.mesh];
+      const bool first = !rest;
+      if (first) rest = std::make_shared<const Mesh>(scene.meshes[object.mesh]);
+      Mesh bent = *rest;
+      bent.targets.clear();
+      bent.influences = {};
+      // The first one takes the place of the mesh at rest, unless that is drawn too.
+      if (!first || drawnAtRest[object.mesh]) {
+        known->second = static_cast<std::uint32_t>(scene.meshes.size());
+        scene.meshes.emplace_back();
+      }
+      scene.meshes[known->second] = std::move(bent);
+      scene.deformations.push_back({.rest = rest,
+                                    .mesh = known->second,
+                                    .node = object.node,
+                                    .skin = object.skin,
+                                    .morphNode = object.morphNode,
+                                    .weights = {},
+                                    .objectFromMesh = {}});
+    }
+    object.mesh = known->second;
+  }
+}
+
+void updateDeformations(Scene& scene) {
+  for (Deformation& deformation : scene.deformations) {
+    std::vector<mat4> joints = jointMatrices(scene, deformation);
+    std::vector<float> weights = morphWeights(scene, deformation);
+    Mesh& bent = scene.meshes[deformation.mesh];
+    const bool fresh = bent.version == 0;
+    if (!fresh && joints == deformation.objectFromMesh && weights == deformation.weights) continue;
+    deformation.objectFromMesh = std::move(joints);
+    deformation.weights = std::move(weights);
+    bend(*deformation.rest, deformation.weights, deformation.objectFromMesh, bent);
+    ++bent.version;
+  }
+}
+
+}  // namespace lucerna::scene
