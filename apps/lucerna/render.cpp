@@ -1,4 +1,4 @@
-// lucerna render SCENE -o out.png
+// lucerna render SCENE -o out.png|.mp4
 
 #include <chrono>
 #include <memory>
@@ -64,8 +64,12 @@ Result<int> render(const Options& options, bool json) {
   app::ProfileLog profile(session->device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer");
   const Status drawn = renderFrames(*session, writer, profilePath.empty() ? nullptr : &profile);
   // What was drawn before Ctrl-C is whole and stays, with its profile.
-  if (drawn || drawn.error().kind == ErrorKind::Cancelled)
+  if (drawn || drawn.error().kind == ErrorKind::Cancelled) {
+    LUCERNA_TRY_VOID(writer.finish());
     LUCERNA_TRY_VOID(writeProfile(profile, profilePath));
+  }
+  if (!drawn && !writer.written().empty())
+    log::info("kept: {}, {} frames", writer.written().back().string(), session->frame);
   LUCERNA_TRY_VOID(drawn);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (json)
@@ -77,17 +81,34 @@ Result<int> render(const Options& options, bool json) {
   return 0;
 }
 
+void addVideoFlags(CLI::App& command, const std::shared_ptr<Options>& options) {
+  app::OutputSettings& output = options->output;
+  command
+      .add_option_function<double>(
+          "--fps", [options](double value) { options->output.fps = value; },
+          "frames a second of a video (one a --time-step)")
+      ->check(between(0.001, 1000));
+  CLI::Option* crf = command
+                         .add_option_function<int>(
+                             "--crf", [options](int value) { options->output.crf = value; },
+                             "H.264 quality: constant rate factor, 0 (best) to 51 (18)")
+                         ->check(wholeNumber(0, 51));
+  command.add_flag("--lossless", output.lossless, "FFV1 instead of H.264; needs an .mkv file")
+      ->excludes(crf);
+}
+
 }  // namespace
 
 void addRender(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = addCommand(line, line.app, "render", "render a scene into picture files",
-                                 [&line, options] { return render(*options, line.talk.json); });
+  CLI::App* command =
+      addCommand(line, line.app, "render", "render a scene into pictures or a video",
+                 [&line, options] { return render(*options, line.talk.json); });
   command->add_option("SCENE", options->render.scene, "file, or builtin:NAME?key=value")
       ->required();
   command
       ->add_option("-o,--output", options->output.path,
-                   "out.png, out.exr, out.hdr or frame-%04d.png")
+                   "out.png, .exr, .hdr, .mp4, .mkv or frame-%04d.png")
       ->required();
   addRenderFlags(*command, options->render);
   command
@@ -102,6 +123,7 @@ void addRender(CommandLine& line) {
           },
           "half or float (half); depth is always float")
       ->check(oneOf({"half", "float"}));
+  addVideoFlags(*command, options);
 }
 
 }  // namespace lucerna::cli

@@ -1,29 +1,28 @@
-// Names of output files: one file, or one a frame through a %04d.
+// The name that -o gives: one file, one a frame through a %04d, or a video of all frames.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 
-#include "core/result.hpp"
+#include "core/numbered_path.hpp"
 
 namespace lucerna::app {
 
-enum class OutputKind { Png, Exr, Hdr };
+enum class OutputKind { Png, Exr, Hdr, Video };
 
 class FrameName {
  public:
-  // pattern: "out.png", or "frame-%04d.png" with one %d or %0Nd (N from 1 to 9); %% is a percent
-  // sign. Several frames need a number, one frame may have it. Errors: ErrorKind::Usage.
+  // pattern: "out.png", "frame-%04d.png" or "out.mp4". Several frames need a number or a video, a
+  // video has no number. Errors: ErrorKind::Usage.
   static Result<FrameName> parse(const std::string& pattern, std::uint64_t frames);
 
-  std::filesystem::path at(std::uint64_t frame) const;
+  std::filesystem::path at(std::uint64_t frame) const { return path_.at(frame); }
   OutputKind kind() const { return kind_; }
 
  private:
-  std::string before_, after_;
-  int digits_ = -1;  // -1: no number in the name
-  OutputKind kind_ = OutputKind::Png;
+  FrameName(NumberedPath path, OutputKind kind) : path_(std::move(path)), kind_(kind) {}
+
+  NumberedPath path_;
+  OutputKind kind_;
 };
 
 }  // namespace lucerna::app

@@ -28,11 +28,26 @@ Image resizedLayer(const Image& image, LayerKind kind, uvec2 size) {
                                                                : resizedNearest(image, size);
 }
 
+bool holdsLinear(OutputKind kind) {
+  return kind == OutputKind::Exr || kind == OutputKind::Hdr;
+}
+
+Status checkVideoFlags(const OutputSettings& output, OutputKind kind) {
+  const char* flag = output.fps        ? "--fps"
+                     : output.crf      ? "--crf"
+                     : output.lossless ? "--lossless"
+                                       : nullptr;
+  if (kind == OutputKind::Video || !flag) return {};
+  return error(ErrorKind::Usage, "{}: '{}' is no video; give -o NAME.mp4 or NAME.mkv", flag,
+               output.path);
+}
+
 }  // namespace
 
 Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
                                         const RenderSettings& settings) {
   LUCERNA_TRY(name, FrameName::parse(output.path, settings.frames));
+  LUCERNA_TRY_VOID(checkVideoFlags(output, name.kind()));
   LUCERNA_TRY_VOID(checkFolderOf(name.at(0), "-o"));
   FrameWriter writer(std::move(name));
   writer.exrType_ = output.exrType;
@@ -44,7 +59,7 @@ Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
   if (!output.layers.empty() && writer.name_.kind() != OutputKind::Exr)
     return error(ErrorKind::Usage, "--layers: '{}' holds one picture; layers need -o NAME.exr",
                  output.path);
-  if (writer.layers_.empty() && writer.name_.kind() != OutputKind::Png)
+  if (writer.layers_.empty() && holdsLinear(writer.name_.kind()))
     writer.layers_.push_back(LayerKind::Color);
   writer.wanted_ = writer.layers_;
   const auto has = [&](LayerKind kind) {
@@ -52,19 +67,41 @@ Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
   };
   // Where the depth is empty there is no normal.
   if (has(LayerKind::Normal) && !has(LayerKind::Depth)) writer.wanted_.push_back(LayerKind::Depth);
+  if (writer.name_.kind() == OutputKind::Video)
+    LUCERNA_TRY_VOID(writer.openVideo(output, settings));
   return writer;
+}
+
+Status FrameWriter::openVideo(const OutputSettings& output, const RenderSettings& settings) {
+  if (!output.fps && settings.timeStep <= 0)
+    return error(ErrorKind::Usage,
+                 "-o: '{}' needs a frame rate, and --time-step 0 gives none; add --fps",
+                 output.path);
+  VideoSettings video{.width = static_cast<int>(settings.size.x),
+                      .height = static_cast<int>(settings.size.y),
+                      .framesPerSecond = output.fps ? *output.fps : 1 / settings.timeStep,
+                      .codec = output.lossless ? VideoCodec::Ffv1 : VideoCodec::H264};
+  if (output.crf) video.crf = *output.crf;
+  LUCERNA_TRY(opened, VideoWriter::create(name_.at(0), video));
+  video_ = std::move(opened);
+  return {};
 }
 
 Status FrameWriter::write(Session& session, const gpu::Texture& output) {
   const std::filesystem::path path = name_.at(session.frame);
-  if (name_.kind() == OutputKind::Png) {
-    const Image picture = encodedRgb(session.device->download(output));
-    LUCERNA_TRY_VOID(writeImage(path, resizedSrgb(picture, session.settings.size)));
-  } else {
+  if (holdsLinear(name_.kind())) {
     LUCERNA_TRY_VOID(writeLayers(session, path));
+  } else {
+    const Image picture =
+        resizedSrgb(encodedRgb(session.device->download(output)), session.settings.size);
+    LUCERNA_TRY_VOID(video_ ? video_->add(picture) : writeImage(path, picture));
   }
-  written_.push_back(path);
+  if (!video_ || written_.empty()) written_.push_back(path);
   return {};
+}
+
+Status FrameWriter::finish() {
+  return video_ && !written_.empty() ? video_->finish() : Status();
 }
 
 Status FrameWriter::writeLayers(Session& session, const std::filesystem::path& path) {

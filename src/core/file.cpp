@@ -109,31 +109,6 @@ fs::path temporaryBeside(const fs::path& path) {
   return path.parent_path() / name;
 }
 
-// Removes a temporary file on every way out.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const fs::path& path() const { return path_; }
-  Status moveTo(const fs::path& target, const fs::path& asGiven) {
-    std::error_code code;
-    fs::rename(path_, target, code);
-    if (code)
-      return error(ErrorKind::Failed, "{}: cannot be replaced: {}", asGiven.string(),
-                   code.message());
-    path_.clear();
-    return {};
-  }
-
- private:
-  fs::path path_;
-};
-
 // Where to write so that links stay links; the path itself if it is none.
 fs::path throughLinks(const fs::path& path) {
   std::error_code code;
@@ -179,24 +154,44 @@ Result<std::string> readText(const fs::path& path, std::uint64_t limit) {
 
 Status writeFile(const fs::path& path, std::span<const std::byte> bytes) {
   if (isDeviceOrPipe(path)) return writeTo(path, path, 0, bytes);
-  return writeAtomically(path, [&](const fs::path& temporary) {
-    return writeTo(temporary, path, O_CREAT | O_EXCL, bytes);
-  });
+  LUCERNA_TRY(file, AtomicFile::create(path));
+  LUCERNA_TRY_VOID(writeTo(file.temporary(), path, O_CREAT | O_EXCL, bytes));
+  return file.commit();
 }
 
 Status writeText(const fs::path& path, std::string_view text) {
   return writeFile(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-Status writeAtomically(const fs::path& path, const std::function<Status(const fs::path&)>& write) {
+Result<AtomicFile> AtomicFile::create(const fs::path& path) {
   if (isDeviceOrPipe(path))
     return error(ErrorKind::Failed, "{}: is a device or pipe, a file name was wanted",
                  path.string());
   const fs::path target = throughLinks(path);
   LUCERNA_TRY_VOID(checkTarget(target, path));
-  TemporaryFile temporary(temporaryBeside(target));
-  LUCERNA_TRY_VOID(write(temporary.path()));
-  return temporary.moveTo(target, path);
+  return AtomicFile(path, target);
+}
+
+AtomicFile::AtomicFile(fs::path path, fs::path target)
+    : path_(std::move(path)), target_(std::move(target)), temporary_(temporaryBeside(target_)) {}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})) {}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+Status AtomicFile::commit() {
+  std::error_code code;
+  fs::rename(temporary_, target_, code);
+  if (code)
+    return error(ErrorKind::Failed, "{}: cannot be replaced: {}", path_.string(), code.message());
+  temporary_.clear();
+  return {};
 }
 
 }  // namespace lucerna

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -28,9 +27,24 @@ Status checkFolderOf(const std::filesystem::path& path, std::string_view option)
 Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status writeText(const std::filesystem::path& path, std::string_view text);
 
-// For writers that want a path (OpenEXR, libav): calls `write` with a temporary path in the folder
-// of `path` (same extension) and renames it when `write` succeeded, removes it otherwise.
-Status writeAtomically(const std::filesystem::path& path,
-                       const std::function<Status(const std::filesystem::path&)>& write);
+// For writers that want a path (libav): a temporary file in the folder of `path`, with the same
+// extension. commit() gives it its name; without that the destructor removes it.
+class AtomicFile {
+ public:
+  // Errors (ErrorKind::Failed): no such folder; a folder, device or pipe of that name. Makes no
+  // file.
+  static Result<AtomicFile> create(const std::filesystem::path& path);
+  AtomicFile(AtomicFile&& other) noexcept;
+  AtomicFile& operator=(AtomicFile&&) = delete;
+  ~AtomicFile();
+
+  const std::filesystem::path& temporary() const { return temporary_; }
+  Status commit();
+
+ private:
+  AtomicFile(std::filesystem::path path, std::filesystem::path target);
+
+  std::filesystem::path path_, target_, temporary_;  // as given, through links, empty once moved
+};
 
 }  // namespace lucerna

@@ -53,24 +53,23 @@ TEST_F(FileTest, RefusesWhatIsNoFileOrTooLarge) {
 
 TEST_F(FileTest, AFailedWriterLeavesTheOldFileAndNothingElse) {
   ASSERT_TRUE(writeText(folder_ / "a.txt", "old"));
-  fs::path used;
-  const Status status = writeAtomically(folder_ / "a.txt", [&](const fs::path& path) -> Status {
-    used = path;
-    std::ofstream(path) << "half of the new";
-    return error(ErrorKind::Failed, "the disk is full");
-  });
-  EXPECT_EQ(status.error().message, "the disk is full");
-  EXPECT_EQ(used.extension(), ".txt");
+  {
+    auto file = AtomicFile::create(folder_ / "a.txt");
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->temporary().extension(), ".txt");
+    std::ofstream(file->temporary()) << "half of the new";
+  }
   EXPECT_EQ(*readText(folder_ / "a.txt"), "old");
   EXPECT_EQ(entries(), 1);
 }
 
 TEST_F(FileTest, ASuccessfulWriterReplacesTheOldFile) {
   ASSERT_TRUE(writeText(folder_ / "a.txt", "old"));
-  ASSERT_TRUE(writeAtomically(folder_ / "a.txt", [&](const fs::path& path) -> Status {
-    EXPECT_EQ(*readText(folder_ / "a.txt"), "old") << "the target is untouched until the end";
-    return writeText(path, "new");
-  }));
+  auto file = AtomicFile::create(folder_ / "a.txt");
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(writeText(file->temporary(), "new"));
+  EXPECT_EQ(*readText(folder_ / "a.txt"), "old") << "the target is untouched until the end";
+  ASSERT_TRUE(file->commit());
   EXPECT_EQ(*readText(folder_ / "a.txt"), "new");
   EXPECT_EQ(entries(), 1);
 }
@@ -85,7 +84,7 @@ TEST_F(FileTest, ImpossibleTargetsAreNamed) {
 TEST_F(FileTest, DevicesAreNeverRenamedOver) {
   EXPECT_TRUE(writeText("/dev/null", "x"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
-  EXPECT_FALSE(writeAtomically("/dev/null", [](const fs::path&) { return Status{}; }));
+  EXPECT_FALSE(AtomicFile::create("/dev/null"));
   EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 

@@ -24,6 +24,13 @@ def png_size(path):
     return struct.unpack(">II", pathlib.Path(path).read_bytes()[16:24])
 
 
+def mp4_frames(path):
+    """The number of pictures in an MP4 file, from its table of sample sizes."""
+    data = pathlib.Path(path).read_bytes()
+    at = data.index(b"stsz")
+    return struct.unpack(">I", data[at + 12:at + 16])[0]
+
+
 class CliTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="lucerna-cli-")
@@ -91,7 +98,14 @@ class CliTest(unittest.TestCase):
         fails("ToneMap", "exposure", flags=["--set", "ToneMap.exposur=1"])
         fails("'script.x'", flags=["--pipeline", self.write("p.json", '{"lucerna": "pipeline/1", "passes": []}'),
                                    "--set", "script.x=1"])
-        self.assert_fails(2, ".png, .exr, .hdr", arguments=["render", ATRIUM, "-o", "a.mp4"])
+        fails("--fps", ".mp4", flags=["--fps", "25"])
+        fails("--crf", "0 to 51", flags=["--crf", "60"])
+        self.assert_fails(2, ".png, .exr, .hdr, .mp4, .mkv", arguments=["render", ATRIUM, "-o", "a.avi"])
+        self.assert_fails(2, "one file", arguments=["render", ATRIUM, "-o", "a-%d.mp4"])
+        self.assert_fails(2, ".mkv", arguments=["render", ATRIUM, "-o", "a.mp4", "--lossless"])
+        self.assert_fails(2, "even sides", "642x362",
+                          arguments=["render", ATRIUM, "-o", "a.mp4", "--size", "641x361"])
+        self.assert_fails(2, "--fps", arguments=["render", ATRIUM, "-o", "a.mp4", "--time-step", "0"])
         self.assert_fails(2, "does not exist", arguments=["render", ATRIUM, "-o", "nowhere/a.png"])
         self.assert_fails(2, "--output is required", arguments=["render", ATRIUM])
         self.assert_fails(2, "'5'", "not a camera", arguments=["render", ATRIUM, "-o", "a.png", "--camera", "5"])
@@ -281,6 +295,17 @@ class CliTest(unittest.TestCase):
             self.assertGreater((self.folder / name).stat().st_size, 1000)
             self.assertEqual(json.loads((self.folder / "p.json").read_text())["lucerna"], "profile/1")
 
+    def test_video(self):
+        flags = [*SMALL, "--frames", 12, "--time-step", "0.04"]
+        for name, more in (("a.mp4", []), ("b.mp4", []), ("c.mkv", ["--lossless"]), ("d.mp4", ["--crf", 40, "--fps", 5])):
+            run = self.lucerna("render", ATRIUM, *flags, *more, "-o", name, "--json")
+            self.assert_ok(run)
+            self.assertEqual(json.loads(run.stdout)["files"], [name])
+        self.assertEqual((self.folder / "a.mp4").read_bytes(), (self.folder / "b.mp4").read_bytes())
+        self.assertEqual(mp4_frames(self.folder / "a.mp4"), 12)
+        self.assertLess((self.folder / "d.mp4").stat().st_size, (self.folder / "a.mp4").stat().st_size)
+        self.assertEqual((self.folder / "c.mkv").read_bytes()[:4], b"\x1aE\xdf\xa3")
+
     def test_cameras(self):
         camera = self.write("c.json", '{"lucerna": "camera/1", "position": [0, 2, 0], "target": [0, 3, -9], "fovY": 60}')
         path = self.write("path.json", '{"lucerna": "camera-path/1", "keyframes": ['
@@ -345,16 +370,22 @@ class CliTest(unittest.TestCase):
         self.assert_ok(run)
         self.assertEqual(run.stdout + run.stderr, "")
 
-    def interrupted(self, *flags):
-        """Renders without end, interrupts after the first frame, and returns the frames that are there."""
-        process = subprocess.Popen([PROGRAM, "render", ATRIUM, *SMALL, "--frames", "100000", "-o", "f-%06d.png", *flags],
-                                   cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    def interrupted(self, started, *arguments):
+        """Runs until `started` matches a file with more than a header, interrupts, and expects exit code
+        130; gives stderr."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 60
-        while not list(self.folder.glob("f-*.png")) and time.monotonic() < deadline:
+        while not any(path.stat().st_size > 64 for path in self.folder.glob(started)) and time.monotonic() < deadline:
             time.sleep(0.05)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, errors)
+        return errors
+
+    def interrupted_pictures(self, *flags):
+        """Interrupts after the first of endless frames; gives the pictures that are there, whole."""
+        self.interrupted("f-*.png", "render", ATRIUM, *SMALL, "--frames", 100000, "-o", "f-%06d.png", *flags)
         pictures = sorted(self.folder.glob("f-*.png"))
         self.assertEqual(sorted(path for path in self.folder.iterdir() if path.suffix == ".png"), pictures)
         for number, path in enumerate(pictures):
@@ -364,15 +395,21 @@ class CliTest(unittest.TestCase):
         return pictures
 
     def test_interrupt_ends_with_130_and_leaves_no_partial_file(self):
-        pictures = self.interrupted()
+        pictures = self.interrupted_pictures()
         self.assertEqual(sorted(self.folder.iterdir()), pictures)
 
     def test_interrupt_keeps_the_profile_of_what_was_drawn(self):
-        pictures = self.interrupted("--profile", "p.csv")
+        pictures = self.interrupted_pictures("--profile", "p.csv")
         frames = self.read_profile("p.csv")
         self.assertEqual(len(frames), len(pictures))
         self.check_costs(frames)
         self.assertEqual(sorted(self.folder.iterdir()), [*pictures, self.folder / "p.csv"])
+
+    def test_interrupt_keeps_the_frames_of_a_video(self):
+        errors = self.interrupted(".a.tmp*.mp4", "render", ATRIUM, *SMALL, "--frames", 100000, "-o", "a.mp4",
+                                  "--profile", "p.csv")
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["a.mp4", "p.csv"])
+        self.assertIn(f"a.mp4, {mp4_frames(self.folder / 'a.mp4')} frames", errors)
 
 
 if __name__ == "__main__":
