@@ -57,6 +57,8 @@ function(lucerna_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE lucerna_options ${ARG_DEPENDS} GTest::gmock_main)
+  # Tests themselves need no speed: this compiles them in two thirds of the time.
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   target_compile_definitions(${name} PRIVATE
     LUCERNA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" LUCERNA_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(NOT ARG_LABELS)
