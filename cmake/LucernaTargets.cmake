@@ -3,7 +3,8 @@
 
 add_library(lucerna_options INTERFACE)
 target_compile_options(lucerna_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+  -Wall -Wextra -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off
+  -fno-semantic-interposition)  # nobody replaces single functions of a shared library
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   # GCC 12 warns falsely on "literal" + std::string (GCC bug 105329).
   target_compile_options(lucerna_options INTERFACE -Wno-restrict)

@@ -6,6 +6,7 @@
 
 #include "command_line.hpp"
 #include "core/parallel.hpp"
+#include "core/version.hpp"
 #include "gpu/context.hpp"
 #include "gpu/device.hpp"
 #include "script/script.hpp"
@@ -75,7 +76,7 @@ std::string text(const Json& document) {
 }
 
 Result<int> doctor(bool json) {
-  Json document{{"version", LUCERNA_VERSION}};
+  Json document{{"version", kVersion}};
   if (const Status gl = checkGl(document); !gl)
     return error(ErrorKind::NoGl,
                  "{}\nLucerna needs OpenGL 4.5 through EGL. On Debian: apt-get install libegl1 "

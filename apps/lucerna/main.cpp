@@ -7,20 +7,10 @@
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
-#include "scene/import/import_worker.hpp"
-#include "script/script.hpp"
+#include "core/version.hpp"
 
 namespace lucerna::cli {
 namespace {
-
-// Hidden: what child processes run (core/child_process.hpp).
-int runWorker(int count, char** words) {
-  const std::string name = count > 2 ? words[2] : "";
-  if (name == "script") return script::scriptWorker();
-  if (name == "import" && count > 3) return scene::importWorker(words[3]);
-  std::fprintf(stderr, "lucerna: --worker is for the program itself\n");
-  return static_cast<int>(ErrorKind::Usage);
-}
 
 // Errors go to stderr; with --json the one document on stdout says it too.
 int fail(const Error& fault, bool json) {
@@ -44,7 +34,7 @@ int run(int count, char** words) {
   CommandLine line;
   line.app.name("lucerna");
   line.app.description("A real-time renderer whose picture is a list of passes.");
-  line.app.set_version_flag("--version", "lucerna " LUCERNA_VERSION);
+  line.app.set_version_flag("--version", fmt::format("lucerna {}", kVersion));
   line.app.footer(
       "Exit codes: 0 ok, 1 failed or differs, 2 usage, 3 input unreadable, 4 no usable "
       "OpenGL,\n5 pipeline, pass or shader error, 130 cancelled.");
@@ -90,7 +80,5 @@ int run(int count, char** words) {
 }  // namespace lucerna::cli
 
 int main(int count, char** words) {
-  if (count > 1 && std::strcmp(words[1], "--worker") == 0)
-    return lucerna::cli::runWorker(count, words);
   return lucerna::cli::run(count, words);
 }

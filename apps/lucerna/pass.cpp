@@ -93,8 +93,13 @@ std::string passText(const graph::PassDescription& pass) {
   return text;
 }
 
-Result<int> list(bool json) {
-  const graph::Registry registry = app::makeRegistry();
+struct Options {
+  std::string type;  // of `show`
+  std::vector<std::string> sets, plugins;
+};
+
+Result<int> list(const Options& options, bool json) {
+  LUCERNA_TRY(registry, app::makeRegistry(options.plugins));
   Json document = Json::array();
   std::string text;
   for (const std::string& type : registry.typeNames()) {
@@ -109,14 +114,8 @@ Result<int> list(bool json) {
   return 0;
 }
 
-struct ShowOptions {
-  std::string type;
-  std::vector<std::string> sets;
-};
-
 // The description of a row with these settings.
-Result<graph::PassDescription> describe(const graph::Registry& registry,
-                                        const ShowOptions& options) {
+Result<graph::PassDescription> describe(const graph::Registry& registry, const Options& options) {
   graph::Pipeline pipeline;
   graph::PassRow& row = pipeline.passes.emplace_back();
   row.name = row.type = options.type;
@@ -132,9 +131,9 @@ Result<graph::PassDescription> describe(const graph::Registry& registry,
   return pass;
 }
 
-Result<int> show(const ShowOptions& options, bool json) {
+Result<int> show(const Options& options, bool json) {
   const std::string& type = options.type;
-  const graph::Registry registry = app::makeRegistry();
+  LUCERNA_TRY(registry, app::makeRegistry(options.plugins));
   if (!registry.find(type)) {
     const std::vector<std::string> names = registry.typeNames();
     return error(ErrorKind::Usage, "there is no pass '{}'{}; there are {}", type,
@@ -152,13 +151,15 @@ Result<int> show(const ShowOptions& options, bool json) {
 
 void addPass(CommandLine& line) {
   CLI::App* group = line.app.add_subcommand("pass", "the passes that pipelines are made of");
-  addCommand(line, *group, "list", "every pass and what it does",
-             [&line] { return list(line.talk.json); });
-  auto options = std::make_shared<ShowOptions>();
-  CLI::App* command = addCommand(line, *group, "show", "ports and parameters of a pass",
-                                 [&line, options] { return show(*options, line.talk.json); });
-  command->add_option("NAME", options->type, "type of the pass")->required();
-  addRepeatable(*command, "--set", options->sets,
+  auto options = std::make_shared<Options>();
+  CLI::App* all = addCommand(line, *group, "list", "every pass and what it does",
+                             [&line, options] { return list(*options, line.talk.json); });
+  addPluginFlag(*all, options->plugins);
+  CLI::App* one = addCommand(line, *group, "show", "ports and parameters of a pass",
+                             [&line, options] { return show(*options, line.talk.json); });
+  one->add_option("NAME", options->type, "type of the pass")->required();
+  addPluginFlag(*one, options->plugins);
+  addRepeatable(*one, "--set", options->sets,
                 "param=value: for these values, on which ports may depend; repeatable");
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 struct Options {
   std::string pipeline, caps, output;
-  std::vector<std::string> sets;
+  std::vector<std::string> sets, plugins;
   uvec2 size{1280, 720};
 };
 
@@ -26,7 +26,7 @@ struct Checked {
 };
 
 Result<Checked> checkPipeline(const Options& options) {
-  const graph::Registry registry = app::makeRegistry();
+  LUCERNA_TRY(registry, app::makeRegistry(options.plugins));
   LUCERNA_TRY(pipeline, app::readPipeline(registry, options.pipeline, options.sets, 0));
   gpu::Capabilities capabilities = gpu::Capabilities::baseline();
   if (!options.caps.empty()) {
@@ -115,6 +115,7 @@ void addPipeline(CommandLine& line) {
     command->add_option("PIPELINE", options->pipeline, "shipped name, FILE.js or FILE.json")
         ->required();
     addRepeatable(*command, "--set", options->sets, "as of `lucerna render`");
+    addPluginFlag(*command, options->plugins);
     command->add_option("--caps", options->caps,
                         "FILE.json: check for this driver (OpenGL 4.5 baseline)");
     command->add_option_function<std::string>(

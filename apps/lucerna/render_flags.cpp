@@ -22,11 +22,16 @@ CLI::Option* addRepeatable(CLI::App& command, const std::string& name,
   return command.add_option(name, values, help)->allow_extra_args(false);
 }
 
+void addPluginFlag(CLI::App& command, std::vector<std::string>& plugins) {
+  addRepeatable(command, "--plugin", plugins, "FILE.so: passes from a shared library; repeatable");
+}
+
 void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
   command.add_option("--pipeline", settings.pipeline,
                      "shipped NAME, FILE.js or FILE.json (deferred)");
   addRepeatable(command, "--set", settings.sets,
                 "Pass.param=value, Pass.enabled=false or script.name=value; repeatable");
+  addPluginFlag(command, settings.plugins);
   command.add_option_function<std::string>(
       "--size",
       [&](const std::string& text) {

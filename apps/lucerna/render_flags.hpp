@@ -9,6 +9,9 @@ namespace lucerna::cli {
 // settings must outlive the parse.
 void addRenderFlags(CLI::App& command, app::RenderSettings& settings);
 
+// --plugin
+void addPluginFlag(CLI::App& command, std::vector<std::string>& plugins);
+
 // An option that may be given several times, one value each.
 CLI::Option* addRepeatable(CLI::App& command, const std::string& name,
                            std::vector<std::string>& values, const std::string& help);

@@ -5,6 +5,7 @@
 #include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "graph/plugin.hpp"
 #include "passes/register_passes.hpp"
 #include "scene/load.hpp"
 #include "script/load_pipeline.hpp"
@@ -68,9 +69,10 @@ Status checkFolder(const std::string& folder) {
 
 }  // namespace
 
-graph::Registry makeRegistry() {
+Result<graph::Registry> makeRegistry(const std::vector<std::string>& plugins) {
   graph::Registry registry;
   passes::registerPasses(registry);
+  for (const std::string& plugin : plugins) LUCERNA_TRY_VOID(graph::loadPlugin(plugin, registry));
   return registry;
 }
 
@@ -96,11 +98,18 @@ Result<graph::Pipeline> readPipeline(const graph::Registry& registry, const std:
 
 Result<std::unique_ptr<Session>> openSession(const RenderSettings& settings,
                                              const std::vector<LayerKind>& layers) {
+  LUCERNA_TRY(registry, makeRegistry(settings.plugins));
+  return openSession(settings, std::move(registry), layers);
+}
+
+Result<std::unique_ptr<Session>> openSession(const RenderSettings& settings,
+                                             graph::Registry registry,
+                                             const std::vector<LayerKind>& layers) {
   setThreadCount(settings.threads);
   auto session = std::make_unique<Session>();
   session->settings = settings;
   session->wantedLayers = layers;
-  session->registry = makeRegistry();
+  session->registry = std::move(registry);
   LUCERNA_TRY_VOID(checkFolder(settings.shaderFolder));
   if (!settings.cameraPath.empty()) {
     LUCERNA_TRY(path, CameraPath::read(settings.cameraPath));

@@ -53,8 +53,8 @@ struct Session {
   double time() const { return settings.time + static_cast<double>(frame) * settings.timeStep; }
 };
 
-// The passes and resources that pipelines may name.
-graph::Registry makeRegistry();
+// The passes and resources that pipelines may name: those that ship, and those of the plugins.
+Result<graph::Registry> makeRegistry(const std::vector<std::string>& plugins = {});
 
 // The pipeline with all `sets` applied; "script.name=value" go to the script.
 Result<graph::Pipeline> readPipeline(const graph::Registry& registry, const std::string& nameOrFile,
@@ -62,6 +62,10 @@ Result<graph::Pipeline> readPipeline(const graph::Registry& registry, const std:
 
 // Reads pipeline and scene, makes the context, uploads. The scene loads on a thread of its own.
 Result<std::unique_ptr<Session>> openSession(const RenderSettings& settings,
+                                             const std::vector<LayerKind>& layers = {});
+// The same with passes of the caller's own choice instead of makeRegistry(settings.plugins).
+Result<std::unique_ptr<Session>> openSession(const RenderSettings& settings,
+                                             graph::Registry registry,
                                              const std::vector<LayerKind>& layers = {});
 
 }  // namespace lucerna::app

@@ -19,6 +19,7 @@ struct RenderSettings {
   std::string scene;
   std::string pipeline = "deferred";  // shipped name, .js or .json
   std::vector<std::string> sets;      // "Pass.param=value", "script.name=value"
+  std::vector<std::string> plugins;   // shared libraries with passes
   uvec2 size{1280, 720};              // px of the output
   int scale = 100;                    // percent: rendering size / output size
   std::string camera;                 // "": the scene's first

@@ -306,13 +306,4 @@ std::string describeEnd(const ChildOutput& output, const ChildLimits& limits) {
   return "";
 }
 
-std::filesystem::path workerProgram() {
-  if (const char* named = std::getenv("LUCERNA_PROGRAM"); named && *named) return named;
-  std::error_code code;
-  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", code);
-  // Any other program (a test, a benchmark, a user of the libraries) must not start itself as a
-  // worker, which would only start the next: it uses the lucerna beside it.
-  return self.filename() == "lucerna" ? self : self.parent_path() / "lucerna";
-}
-
 }  // namespace lucerna

@@ -38,8 +38,4 @@ ChildOutput runChild(const std::filesystem::path& program,
 // "was killed after 10 s", "crashed (signal 11)", ... for messages.
 std::string describeEnd(const ChildOutput& output, const ChildLimits& limits);
 
-// The program that understands the hidden subcommands (`lucerna --worker NAME`) that children run:
-// what LUCERNA_PROGRAM names, else the running program if it is lucerna, else the one beside it.
-std::filesystem::path workerProgram();
-
 }  // namespace lucerna

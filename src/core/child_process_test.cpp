@@ -148,13 +148,5 @@ TEST(ChildProcess, TheSecondInterruptKills) {
       testing::KilledBySignal(SIGINT), "");
 }
 
-TEST(ChildProcess, TheWorkerIsTheLucernaBesideThisProgramUnlessNamed) {
-  unsetenv("LUCERNA_PROGRAM");
-  EXPECT_EQ(workerProgram().filename(), "lucerna");
-  setenv("LUCERNA_PROGRAM", "/opt/other", 1);
-  EXPECT_EQ(workerProgram(), "/opt/other");
-  unsetenv("LUCERNA_PROGRAM");
-}
-
 }  // namespace
 }  // namespace lucerna

@@ -57,7 +57,7 @@ class Checker {
     const std::vector<std::string> types = registry_.typeNames();
     const std::string near = closest(row_.type, types);
     report(FaultKind::UnknownPass, place_, fmt::format("the pass type '{}'", row_.type),
-           "a type that `lucerna pass list` names",
+           "a type that `lucerna pass list` names, or one that a --plugin brings",
            near.empty() ? fmt::format("there are: {}", join(types))
                         : fmt::format("did you mean '{}'?", near));
     return near.empty() ? nullptr : registry_.find(near);

@@ -8,6 +8,7 @@
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/text.hpp"
+#include "core/worker_program.hpp"
 #include "script/script_answer.hpp"
 
 namespace lucerna::script {
@@ -44,7 +45,7 @@ Result<graph::Pipeline> runPipelineSource(const std::string& source, const std::
   // A file that is not UTF-8 still runs: what is not text becomes U+FFFD.
   const std::string text = request.dump(-1, ' ', false, Json::error_handler_t::replace);
   const ChildOutput child =
-      runChild(workerProgram(), {"--worker", "script"}, std::as_bytes(std::span(text)), kLimits);
+      runChild(workerProgram(), {"script"}, std::as_bytes(std::span(text)), kLimits);
   for (const std::string& line : split(child.err, '\n'))
     if (!line.empty()) log::info("{}: {}", name, line);
   if (child.end == ChildOutput::End::Cancelled)

@@ -1,5 +1,5 @@
 // Pipeline scripts: a .js file is a program that produces the same data as a .json pipeline. It
-// runs in a child process (`lucerna --worker script`), so that a loop without end or an allocation
+// runs in a child process (core/worker_program.hpp), so that a loop without end or an allocation
 // without bounds becomes an error message. docs/user/pipelines.md describes the globals.
 #pragma once
 

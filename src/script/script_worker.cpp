@@ -119,7 +119,7 @@ int scriptWorker() {
   const Json request = Json::parse(text, nullptr, false);
   if (!request.is_object() || !request.contains("source")) {
     std::fprintf(stderr,
-                 "--worker script is for the program itself: it wants a request on stdin\n");
+                 "lucerna_worker script wants a request on stdin: Lucerna itself starts it\n");
     return static_cast<int>(ErrorKind::Usage);
   }
   const std::string answer = answerTo(request);

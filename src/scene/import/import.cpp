@@ -1,5 +1,6 @@
 #include "scene/import/import.hpp"
 
+#include "core/worker_program.hpp"
 #include "scene/import/import_textures.hpp"
 #include "scene/import/scene_stream.hpp"
 
@@ -39,7 +40,7 @@ Result<Scene> importScene(const std::filesystem::path& path) {
   if (code)
     return error(ErrorKind::Input, "{}: {}; wanted a readable file", path.string(), code.message());
   const ChildLimits limits = importLimits(size);
-  ChildOutput output = runChild(workerProgram(), {"--worker", "import", path.string()}, {}, limits);
+  ChildOutput output = runChild(workerProgram(), {"import", path.string()}, {}, limits);
   if (output.end != ChildOutput::End::Exited || output.status != 0)
     return describeFailure(path, output, limits);
 

@@ -1,4 +1,4 @@
-// Files that assimp reads, through the child process. LUCERNA_PROGRAM names the test worker.
+// Files that assimp reads, through the child process. LUCERNA_WORKER names the test worker.
 #include "scene/import/import.hpp"
 
 #include <gmock/gmock.h>

@@ -5,7 +5,7 @@
 
 namespace lucerna::scene {
 
-// `lucerna --worker import PATH`: writes the scene as a stream (scene_stream.hpp) to stdout, or one
+// `lucerna_worker import PATH`: writes the scene as a stream (scene_stream.hpp) to stdout, or one
 // sentence to stderr. Returns the exit code.
 int importWorker(const std::string& path);
 

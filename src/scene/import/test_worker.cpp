@@ -1,4 +1,4 @@
-// Stands in for the lucerna binary in tests: `test_worker --worker import PATH`. A file name that
+// Stands in for lucerna_worker in tests: `test_worker import PATH`. A file name that
 // says so makes it misbehave as a reader taken over by a hostile file might.
 #include <chrono>
 #include <csignal>
@@ -10,8 +10,8 @@
 #include "scene/import/import_worker.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 4 || std::string(argv[1]) != "--worker" || std::string(argv[2]) != "import") return 2;
-  const std::string path = argv[3];
+  if (argc != 3 || std::string(argv[1]) != "import") return 2;
+  const std::string path = argv[2];
   const auto says = [&](const char* word) { return path.find(word) != std::string::npos; };
   if (says("worker_crashes")) {
     std::signal(SIGSEGV, SIG_DFL);  // the address sanitizer has a handler that ends with code 1

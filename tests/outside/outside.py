@@ -1,0 +1,35 @@
+"""What the tests of this folder share: the three paths they are given, and running commands."""
+import os
+import pathlib
+import subprocess
+import sys
+import unittest
+
+SOURCE, BUILD, COMPILER = (pathlib.Path(word) for word in sys.argv[1:4])
+LUCERNA = BUILD / "bin" / "lucerna"
+EXAMPLE = SOURCE / "examples" / "vignette"
+
+
+class OutsideTest(unittest.TestCase):
+    def run_command(self, *words, cwd=None, **environment):
+        """With these environment variables, without those that are None."""
+        variables = {name: value for name, value in {**os.environ, **environment}.items() if value is not None}
+        return subprocess.run([str(word) for word in words], cwd=cwd, capture_output=True, text=True,
+                              timeout=600, check=False, env=variables)
+
+    def succeed(self, *words, cwd=None, **environment):
+        run = self.run_command(*words, cwd=cwd, **environment)
+        self.assertEqual(run.returncode, 0, f"{words}\n{run.stdout}\n{run.stderr}")
+        return run.stdout
+
+    def fail_with(self, code, *wanted, command):
+        """One message on stderr that holds every word."""
+        run = self.run_command(*command)
+        self.assertEqual(run.returncode, code, f"{command}\n{run.stderr}")
+        self.assertEqual(run.stderr.count("error: "), 1, run.stderr)
+        for word in wanted:
+            self.assertIn(word, run.stderr)
+
+
+def main():
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
