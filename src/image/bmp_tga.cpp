@@ -5,6 +5,7 @@
 #define STBI_ONLY_TGA
 #include <stb/stb_image.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <limits>
@@ -16,6 +17,7 @@ namespace lucerna::codec {
 namespace {
 
 constexpr std::size_t kTgaHeaderBytes = 18;
+constexpr std::size_t kStbHeaderBytes = 4096;  // more than any header has
 
 struct Tga {
   std::uint32_t idBytes, paletted, type, paletteLength, paletteBits, width, height, bits;
@@ -84,6 +86,16 @@ Result<Header> tgaHeader(ByteView bytes, const std::string& name) {
   return header;
 }
 
+// As decodeWithStb() will give them: alpha depends on the masks of a BMP. 0 if the header is
+// damaged.
+int stbChannels(ByteView bytes) {
+  const ByteView start = bytes.first(std::min(bytes.size(), kStbHeaderBytes));
+  int width = 0, height = 0, channels = 0;
+  stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(start.data()),
+                        static_cast<int>(start.size()), &width, &height, &channels);
+  return channels;
+}
+
 // stb_image's entry point takes either format; ours has looked at the header already.
 Result<Image> decodeWithStb(ByteView bytes, const std::string& name, const char* format) {
   if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
@@ -128,8 +140,10 @@ Result<Header> bmpHeader(ByteView bytes, const std::string& name) {
   const auto rows = static_cast<std::int32_t>(old ? little16(bytes, 20) : little32(bytes, 22));
   if (width <= 0 || rows == 0 || rows == std::numeric_limits<std::int32_t>::min())
     return corrupt(name, "BMP", fmt::format("its header declares {}x{} pixels", width, rows));
+  const int channels = stbChannels(bytes);
+  if (channels == 0) return corrupt(name, "BMP", stbi_failure_reason());
   Header header;
-  header.info = {"BMP", width, std::abs(rows), bits == 32 ? 4 : 3};
+  header.info = {"BMP", width, std::abs(rows), channels};
   const std::uint64_t row = (static_cast<std::uint64_t>(width) * bits + 31) / 32 * 4;
   header.leastBytes = little32(bytes, 10) + row * static_cast<std::uint64_t>(std::abs(rows));
   return header;

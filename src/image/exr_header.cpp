@@ -8,6 +8,7 @@ namespace {
 constexpr std::size_t kMaxNameBytes = 255;
 constexpr std::uint32_t kUnsupportedFlags = 0x800;  // deep data
 constexpr std::uint32_t kTiledFlag = 0x200;
+constexpr std::uint32_t kPartsFlag = 0x1000;  // several headers, then an empty one
 
 // Reads forward; `failed` once anything lies beyond the end.
 class Cursor {
@@ -67,6 +68,21 @@ bool readAttribute(const std::string& attribute, Cursor value, ExrHeader& header
   return !value.failed();
 }
 
+// Up to the empty name that ends the header; `attributes` counts them.
+Status readAttributes(Cursor& cursor, const std::string& name, ExrHeader& header,
+                      std::size_t& attributes) {
+  for (attributes = 0;; ++attributes) {
+    const std::string attribute = cursor.text();
+    if (attribute.empty()) break;
+    cursor.text();  // its type
+    const ByteView value = cursor.take(cursor.u32());
+    if (cursor.failed() || !readAttribute(attribute, Cursor(value), header))
+      return corrupt(name, "EXR", "attribute '" + attribute + "' of the header is damaged");
+  }
+  if (cursor.failed()) return corrupt(name, "EXR", "the header ends too early");
+  return {};
+}
+
 }  // namespace
 
 Result<ExrHeader> readExrHeader(ByteView bytes, const std::string& name) {
@@ -79,15 +95,13 @@ Result<ExrHeader> readExrHeader(ByteView bytes, const std::string& name) {
     return error(ErrorKind::Input, "{}: deep EXR pictures are not read; flatten it first", name);
   ExrHeader header;
   header.tiled = (flags & kTiledFlag) != 0;
-  for (;;) {
-    const std::string attribute = cursor.text();
-    if (attribute.empty()) break;
-    cursor.text();  // its type
-    const ByteView value = cursor.take(cursor.u32());
-    if (cursor.failed() || !readAttribute(attribute, Cursor(value), header))
-      return corrupt(name, "EXR", "attribute '" + attribute + "' of the header is damaged");
+  std::size_t attributes = 0;
+  LUCERNA_TRY_VOID(readAttributes(cursor, name, header, attributes));
+  // OpenEXR allocates what an attribute says that it takes, in the headers of other parts too.
+  while ((flags & kPartsFlag) && attributes > 0) {
+    ExrHeader other;
+    LUCERNA_TRY_VOID(readAttributes(cursor, name, other, attributes));
   }
-  if (cursor.failed()) return corrupt(name, "EXR", "the header ends too early");
   if (header.width < 1 || header.height < 1 || header.channels.empty())
     return corrupt(name, "EXR", "the header has no data window or no channels");
   return header;

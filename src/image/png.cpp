@@ -48,6 +48,7 @@ struct PngReader {
   std::string message;
 };
 
+// The chunks before the pixels.
 bool readInfo(PngReader& reader) {
   if (setjmp(png_jmpbuf(reader.png))) return false;
   png_set_read_fn(reader.png, &reader, PngReader::onRead);
@@ -55,6 +56,11 @@ bool readInfo(PngReader& reader) {
   png_set_chunk_malloc_max(reader.png, kMaxChunkBytes);
   png_set_chunk_cache_max(reader.png, kMaxAncillaryChunks);
   png_read_info(reader.png, reader.info);
+  return true;
+}
+
+bool setConversions(PngReader& reader) {
+  if (setjmp(png_jmpbuf(reader.png))) return false;
   png_set_expand(reader.png);  // palettes, few bits, transparent colours
   png_set_swap(reader.png);    // 16 bits are big-endian in the file
   png_set_interlace_handling(reader.png);
@@ -76,19 +82,11 @@ std::vector<png_bytep> rowPointers(const Image& image) {
   return rows;
 }
 
-// What the chunks before the pixels say.
-struct EarlyChunks {
-  bool transparency = false, pixels = false;
-};
-
-EarlyChunks earlyChunks(ByteView bytes) {
-  EarlyChunks found;
-  for (std::size_t at = kHeaderEnd; at + 8 <= bytes.size() && !found.pixels;
-       at += 12 + static_cast<std::size_t>(big32(bytes, at))) {
-    if (startsWith(bytes.subspan(at + 4), "tRNS")) found.transparency = true;
-    if (startsWith(bytes.subspan(at + 4), "IDAT")) found.pixels = true;
-  }
-  return found;
+bool hasPixels(ByteView bytes) {
+  for (std::size_t at = kHeaderEnd; at + 8 <= bytes.size();
+       at += 12 + static_cast<std::size_t>(big32(bytes, at)))
+    if (startsWith(bytes.subspan(at + 4), "IDAT")) return true;
+  return false;
 }
 
 bool recognises(ByteView bytes) {
@@ -109,12 +107,16 @@ Result<Header> readHeader(ByteView bytes, const std::string& name) {
     return corrupt(name, "PNG", fmt::format("colour type {} does not exist", colour));
   if (!std::has_single_bit(bits) || bits > 16)
     return corrupt(name, "PNG", fmt::format("a bit depth of {} does not exist", bits));
-  const EarlyChunks chunks = earlyChunks(bytes);
-  if (!chunks.pixels) return corrupt(name, "PNG", "it has no pixels (no IDAT chunk)");
+  if (!hasPixels(bytes)) return corrupt(name, "PNG", "it has no pixels (no IDAT chunk)");
+  // libpng passes over a damaged chunk of transparent colours: only it knows whether there is one.
+  // What it refuses altogether is told by decode().
+  PngReader reader(bytes);
+  const bool transparency =
+      readInfo(reader) && png_get_valid(reader.png, reader.info, PNG_INFO_tRNS) != 0;
   const std::uint32_t stored = palette ? 1 : (rgb ? 3 : 1) + (alpha ? 1 : 0);
   Header header;
   header.info = {"PNG", static_cast<int>(width), static_cast<int>(height),
-                 (rgb ? 3 : 1) + (alpha || chunks.transparency ? 1 : 0),
+                 (rgb ? 3 : 1) + (alpha || transparency ? 1 : 0),
                  bits == 16 ? ComponentType::U16 : ComponentType::U8};
   const std::uint64_t row = 1 + (static_cast<std::uint64_t>(width) * stored * bits + 7) / 8;
   header.leastBytes = kHeaderEnd + row * height / kDeflateRatio;
@@ -123,7 +125,7 @@ Result<Header> readHeader(ByteView bytes, const std::string& name) {
 
 Result<Image> decode(ByteView bytes, const std::string& name) {
   PngReader reader(bytes);
-  if (!readInfo(reader)) return corrupt(name, "PNG", reader.message);
+  if (!readInfo(reader) || !setConversions(reader)) return corrupt(name, "PNG", reader.message);
   const bool wide = png_get_bit_depth(reader.png, reader.info) == 16;
   Image image(static_cast<int>(png_get_image_width(reader.png, reader.info)),
               static_cast<int>(png_get_image_height(reader.png, reader.info)),

@@ -15,6 +15,7 @@ constexpr float kWidestFrame = 4.f / 3.f;  // width / height that the box is fit
 constexpr float kMargin = 1.05f;           // of distance
 constexpr float kLowestRoom = 1.5f;        // m
 constexpr float kNarrowestRoom = 0.01f;    // of the box's diagonal, from the middle to a wall
+constexpr float kFarthest = 1e15f;         // m from the origin; squares of lengths stay finite
 constexpr int kDirections = 16;            // around the horizon
 
 struct Sight {
@@ -119,11 +120,21 @@ void addCameraOutside(Scene& scene, const Aabb& box, vec3 toEye) {
   addCamera(scene, box.center() + toEye * distance, box.center(), kMargin * frame);
 }
 
+bool withinReach(const Aabb& box) {
+  const vec3 farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
+  return farthest.x <= kFarthest && farthest.y <= kFarthest && farthest.z <= kFarthest;
+}
+
 }  // namespace
 
 void addFittingCamera(Scene& scene) {
   const Aabb box = scene.boundsW();
-  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
+  if (!box.empty() && !withinReach(box))
+    scene.warnings.push_back(
+        "parts of the scene lie so far away that no camera can show it whole; the default camera "
+        "looks at the origin");
+  if (box.empty() || !withinReach(box))
+    return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
 
   // A room: from its middle most sight lines end at the front of a wall; from the middle of a solid
   // thing they end at back faces. A car has an inside too, but none to stand in; nor is a

@@ -8,8 +8,15 @@
 namespace lucerna::scene {
 namespace {
 
+// Of length 1; the fallback where there is no direction.
+vec3 unitOr(vec3 v, vec3 fallback) {
+  const float length = glm::length(v);
+  return length > 0.f && std::isfinite(length) ? v / length : fallback;
+}
+
+// Normals of a file may be zero.
 vec3 anyPerpendicular(vec3 n) {
-  return glm::normalize(glm::cross(n, std::abs(n.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 1, 0)));
+  return unitOr(glm::cross(n, std::abs(n.x) < 0.9f ? vec3(1, 0, 0) : vec3(0, 1, 0)), vec3(1, 0, 0));
 }
 
 template <typename T>
@@ -78,10 +85,7 @@ void makeNormals(Mesh& mesh) {
     const vec3 n = glm::cross(mesh.positions[v[1]] - p, mesh.positions[v[2]] - p);
     for (int k = 0; k < 3; ++k) mesh.normals[v[k]] += n;
   }
-  for (vec3& n : mesh.normals) {
-    const float length = glm::length(n);
-    n = length > 0.f && std::isfinite(length) ? n / length : vec3(0.f, 1.f, 0.f);
-  }
+  for (vec3& n : mesh.normals) n = unitOr(n, vec3(0.f, 1.f, 0.f));
 }
 
 // As MikkTSpace weighs them (Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008): each
