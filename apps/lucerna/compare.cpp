@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "app/compare_page.hpp"
 #include "command_line.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
@@ -16,7 +17,7 @@ namespace lucerna::cli {
 namespace {
 
 struct Options {
-  std::string reference, test, heatmap, mask;
+  std::string reference, test, heatmap, html, mask;
   std::optional<double> failAbove;
   bool hdr = false, ldr = false;
   FlipSettings flip;
@@ -52,37 +53,48 @@ Result<std::optional<Image>> readMask(const Options& options, const Image& refer
   return std::optional<Image>(std::move(result));
 }
 
-// The error map must not replace what is compared, and must be a picture somewhere.
-Status checkHeatmap(const Options& options) {
-  if (!options.heatmap.empty()) LUCERNA_TRY_VOID(checkFolderOf(options.heatmap, "--heatmap"));
+// What is written must not replace what is compared, and needs a folder.
+Status checkOutput(const Options& options, const char* option, const std::string& path) {
+  if (path.empty()) return {};
+  LUCERNA_TRY_VOID(checkFolderOf(path, option));
   for (const std::string& input : {options.reference, options.test, options.mask}) {
     std::error_code missing;
-    if (!options.heatmap.empty() && std::filesystem::equivalent(options.heatmap, input, missing))
-      return error(ErrorKind::Usage,
-                   "--heatmap: '{}' is one of the pictures compared; name another",
-                   options.heatmap);
+    if (std::filesystem::equivalent(path, input, missing))
+      return error(ErrorKind::Usage, "{}: '{}' is one of the pictures compared; name another",
+                   option, path);
   }
   return {};
 }
 
-Result<int> compare(const Options& options, bool json) {
-  LUCERNA_TRY_VOID(checkHeatmap(options));
-  LUCERNA_TRY(referenceFile, readImage(options.reference));
-  LUCERNA_TRY(testFile, readImage(options.test));
-  LUCERNA_TRY_VOID(checkSize(testFile, options.test, referenceFile, options.reference));
-  LUCERNA_TRY(mask, readMask(options, referenceFile));
-  const Image* maskImage = mask ? &*mask : nullptr;
+app::Comparison measured(const Options& options, const Image& reference, const Image& test,
+                         const Image* mask) {
+  const bool hdr = options.hdr || (!options.ldr && (reference.type() == ComponentType::F32 ||
+                                                    test.type() == ComponentType::F32));
+  app::Comparison result{.referenceName = options.reference,
+                         .testName = options.test,
+                         .reference = prepared(reference, hdr),
+                         .test = prepared(test, hdr),
+                         .hdr = hdr};
+  result.eightBit =
+      !hdr && reference.type() == ComponentType::U8 && test.type() == ComponentType::U8;
+  result.flip = hdr ? flipHdr(result.reference, result.test, options.flip, mask).map
+                    : flipLdr(result.reference, result.test, options.flip, mask);
+  result.pixels = pixelMetrics(result.reference, result.test, mask);
+  return result;
+}
 
-  const bool hdr = options.hdr || (!options.ldr && (referenceFile.type() == ComponentType::F32 ||
-                                                    testFile.type() == ComponentType::F32));
-  const Image reference = prepared(referenceFile, hdr);
-  const Image test = prepared(testFile, hdr);
-  const ErrorMap flip = hdr ? flipHdr(reference, test, options.flip, maskImage).map
-                            : flipLdr(reference, test, options.flip, maskImage);
-  const PixelMetrics pixels = pixelMetrics(reference, test, maskImage);
-  if (!options.heatmap.empty())
-    LUCERNA_TRY_VOID(writeImage(options.heatmap, heatMap(flip.error, maskImage)));
+Status writePictures(const Options& options, const app::Comparison& result, const Image* mask) {
+  if (options.heatmap.empty() && options.html.empty()) return {};
+  const Image map = heatMap(result.flip.error, mask);
+  if (!options.heatmap.empty()) LUCERNA_TRY_VOID(writeImage(options.heatmap, map));
+  if (options.html.empty()) return {};
+  LUCERNA_TRY(page, app::comparePage(result, map));
+  return writeText(options.html, page);
+}
 
+void print(const app::Comparison& result, bool json) {
+  const ErrorMap& flip = result.flip;
+  const PixelMetrics& pixels = result.pixels;
   if (json)
     printJson({{"flip",
                 {{"mean", flip.mean},
@@ -96,11 +108,24 @@ Result<int> compare(const Options& options, bool json) {
     printText(fmt::format(
         "{}-FLIP  mean {:.6f}  weighted median {:.6f}  95th percentile {:.6f}  max {:.6f}\n"
         "PSNR {:.3f} dB  SSIM {:.6f}  RMSE {:.6f}\n",
-        hdr ? "HDR" : "LDR", flip.mean, flip.weightedMedian, flip.p95, flip.max, pixels.psnr,
+        result.hdr ? "HDR" : "LDR", flip.mean, flip.weightedMedian, flip.p95, flip.max, pixels.psnr,
         pixels.ssim, pixels.rmse));
-  if (!options.failAbove || flip.mean <= *options.failAbove) return 0;
+}
+
+Result<int> compare(const Options& options, bool json) {
+  LUCERNA_TRY_VOID(checkOutput(options, "--heatmap", options.heatmap));
+  LUCERNA_TRY_VOID(checkOutput(options, "--html", options.html));
+  LUCERNA_TRY(reference, readImage(options.reference));
+  LUCERNA_TRY(test, readImage(options.test));
+  LUCERNA_TRY_VOID(checkSize(test, options.test, reference, options.reference));
+  LUCERNA_TRY(mask, readMask(options, reference));
+  const Image* maskImage = mask ? &*mask : nullptr;
+  const app::Comparison result = measured(options, reference, test, maskImage);
+  LUCERNA_TRY_VOID(writePictures(options, result, maskImage));
+  print(result, json);
+  if (!options.failAbove || result.flip.mean <= *options.failAbove) return 0;
   log::error("{} differs from {}: mean FLIP {:.6f} is above {:g}", options.test, options.reference,
-             flip.mean, *options.failAbove);
+             result.flip.mean, *options.failAbove);
   return static_cast<int>(ErrorKind::Failed);
 }
 
@@ -114,6 +139,8 @@ void addCompare(CommandLine& line) {
   command->add_option("REFERENCE", options->reference, "picture taken as true")->required();
   command->add_option("TEST", options->test, "picture to judge")->required();
   command->add_option("--heatmap", options->heatmap, "write the FLIP error as a coloured picture");
+  command->add_option("--html", options->html,
+                      "write a page that stands alone: flip, slider, error, values of pixels");
   command->add_option("--mask", options->mask, "picture; pixels that are black in it do not count");
   command
       ->add_option_function<double>(

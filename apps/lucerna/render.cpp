@@ -48,6 +48,14 @@ Status renderFrames(app::Session& session, app::FrameWriter& writer, app::Profil
   return {};
 }
 
+app::ProfileSubject profileSubject(const app::Session& session) {
+  return {.scene = session.scene.name,
+          .pipeline = session.pipeline.name,
+          .renderer = session.device->description(),
+          .size = session.settings.size,
+          .gpuClock = session.device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer"};
+}
+
 Status writeProfile(const app::ProfileLog& profile, const std::string& path) {
   if (profile.empty()) return {};  // not asked for, or cancelled before the first frame
   LUCERNA_TRY_VOID(profile.write(path));
@@ -61,7 +69,7 @@ Result<int> render(const Options& options, bool json) {
   const std::string& profilePath = options.render.profile;
   if (!profilePath.empty()) LUCERNA_TRY_VOID(app::ProfileLog::checkPath(profilePath));
   LUCERNA_TRY(session, app::openSession(options.render, writer.layers()));
-  app::ProfileLog profile(session->device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer");
+  app::ProfileLog profile(profileSubject(*session));
   const Status drawn = renderFrames(*session, writer, profilePath.empty() ? nullptr : &profile);
   // What was drawn before Ctrl-C is whole and stays, with its profile.
   if (drawn || drawn.error().kind == ErrorKind::Cancelled) {

@@ -65,7 +65,7 @@ void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
           "EV instead of the scene's; one more doubles the brightness")
       ->check(between(-64, 64, "EV"));
   command.add_option("--profile", settings.profile,
-                     "FILE.csv or FILE.json: times and counts of every pass");
+                     "FILE.csv, .json, .md or .html: times and counts of every pass");
   command.add_option("--shaders", settings.shaderFolder,
                      "folder like src/ whose shaders go before the built-in ones");
   command

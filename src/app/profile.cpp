@@ -1,8 +1,11 @@
 #include "app/profile.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "app/profile_report.hpp"
+#include "app/profile_summary.hpp"
 #include "core/file.hpp"
 
 namespace lucerna::app {
@@ -28,12 +31,20 @@ Json costJson(const Cost& cost) {
           {"texture_bytes", cost.textureBytes}};
 }
 
-struct Mean {
-  std::string row;
-  int view = 0;
-  double cpuMs = 0, gpuMs = 0, draws = 0, primitives = 0;
-  std::uint64_t textureBytes = 0;
+struct Form {
+  const char* extension;
+  std::string (*text)(const ProfileLog& log);
 };
+constexpr Form kForms[] = {{".csv", [](const ProfileLog& log) { return log.csv(); }},
+                           {".json", [](const ProfileLog& log) { return log.json(); }},
+                           {".md", profileMarkdown},
+                           {".html", profileHtml}};
+
+const Form* formOf(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  const auto form = std::ranges::find(kForms, extension, &Form::extension);
+  return form == std::end(kForms) ? nullptr : form;
+}
 
 }  // namespace
 
@@ -41,9 +52,9 @@ std::string ProfileLog::csv() const {
   std::string text = "frame,pass,view,cpu_ms,gpu_ms,draws,primitives,texture_bytes,gpu_clock\n";
   // Of a step or of the frame.
   const auto add = [&](std::uint64_t frame, const std::string& what, const auto& cost) {
-    text +=
-        fmt::format("{},{},{:.4f},{:.4f},{},{},{},{}\n", frame, what, cost.cpuMs, cost.gpuMs,
-                    cost.counters.draws, cost.counters.primitives, cost.textureBytes, gpuClock_);
+    text += fmt::format("{},{},{:.4f},{:.4f},{},{},{},{}\n", frame, what, cost.cpuMs, cost.gpuMs,
+                        cost.counters.draws, cost.counters.primitives, cost.textureBytes,
+                        subject_.gpuClock);
   };
   for (const graph::FrameProfile& frame : frames_) {
     for (const graph::StepProfile& step : frame.steps)
@@ -68,59 +79,35 @@ std::string ProfileLog::json() const {
     frames.push_back(std::move(json));
   }
   const Json document{
-      {"lucerna", "profile/1"}, {"gpu_clock", gpuClock_}, {"frames", std::move(frames)}};
+      {"lucerna", "profile/1"}, {"gpu_clock", subject_.gpuClock}, {"frames", std::move(frames)}};
   return document.dump(1) + "\n";
 }
 
 std::string ProfileLog::table() const {
-  const std::size_t first = frames_.size() > 1 ? 1 : 0;
-  const auto count = static_cast<double>(frames_.size() - first);
-  std::vector<Mean> means;
-  for (std::size_t f = first; f < frames_.size(); ++f)
-    for (const graph::StepProfile& step : frames_[f].steps) {
-      auto mean = std::find_if(means.begin(), means.end(), [&](const Mean& m) {
-        return m.row == step.row && m.view == step.view;
-      });
-      if (mean == means.end())
-        mean = means.insert(means.end(), {.row = step.row, .view = step.view});
-      mean->cpuMs += step.cpuMs / count;
-      mean->gpuMs += step.gpuMs / count;
-      mean->draws += static_cast<double>(step.counters.draws) / count;
-      mean->primitives += static_cast<double>(step.counters.primitives) / count;
-      mean->textureBytes = step.textureBytes;
-    }
+  const ProfileSummary summary = summarised(frames_);
   std::string text = fmt::format("{:24} {:>4} {:>9} {:>9} {:>8} {:>11} {:>8}\n", "pass", "view",
                                  "CPU ms", "GPU ms", "draws", "primitives", "MiB");
-  Mean whole;
-  const auto addLine = [&](const Mean& mean, const std::string& name, const std::string& view) {
+  const auto addLine = [&](const PassCost& cost, const std::string& name, const std::string& view) {
     text += fmt::format("{:24} {:>4} {:9.2f} {:9.2f} {:8.0f} {:11.0f} {:8.1f}\n", name, view,
-                        mean.cpuMs, mean.gpuMs, mean.draws, mean.primitives,
-                        static_cast<double>(mean.textureBytes) / (1 << 20));
+                        cost.cpu.mean, cost.gpu.mean, cost.draws, cost.primitives,
+                        static_cast<double>(cost.textureBytes) / (1 << 20));
   };
-  for (const Mean& mean : means) {
-    whole.cpuMs += mean.cpuMs;
-    whole.gpuMs += mean.gpuMs;
-    whole.draws += mean.draws;
-    whole.primitives += mean.primitives;
-    addLine(mean, mean.row, std::to_string(mean.view));
-  }
-  whole.textureBytes = frames_.empty() ? 0 : frames_.back().textureBytes;
-  addLine(whole, "all", "");
-  return text + fmt::format("mean of {} frame{}{}; GPU clock: {}\n", frames_.size() - first,
-                            count > 1 ? "s" : "", first > 0 ? " (the first left out)" : "",
-                            gpuClock_);
+  for (const PassCost& pass : summary.passes) addLine(pass, pass.row, std::to_string(pass.view));
+  addLine(summary.frame, "all", "");
+  return text + fmt::format("mean of {} frame{}{}; GPU clock: {}\n", summary.frames,
+                            summary.frames > 1 ? "s" : "",
+                            summary.firstLeftOut ? " (the first left out)" : "", subject_.gpuClock);
 }
 
 Status ProfileLog::checkPath(const std::string& path) {
-  const std::string extension = std::filesystem::path(path).extension().string();
-  if (extension == ".csv" || extension == ".json") return checkFolderOf(path, "--profile");
-  return error(ErrorKind::Usage, "--profile: '{}' ends in '{}'; wanted .csv or .json", path,
-               extension);
+  if (formOf(path)) return checkFolderOf(path, "--profile");
+  return error(ErrorKind::Usage, "--profile: '{}' ends in '{}'; wanted .csv, .json, .md or .html",
+               path, std::filesystem::path(path).extension().string());
 }
 
 Status ProfileLog::write(const std::string& path) const {
   LUCERNA_TRY_VOID(checkPath(path));
-  return writeText(path, path.ends_with(".csv") ? csv() : json());
+  return writeText(path, formOf(path)->text(*this));
 }
 
 }  // namespace lucerna::app

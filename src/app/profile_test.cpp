@@ -10,7 +10,7 @@ namespace {
 using testing::HasSubstr;
 
 ProfileLog exampleLog() {
-  ProfileLog log("cpu-after-finish");
+  ProfileLog log({.gpuClock = "cpu-after-finish"});
   for (std::uint64_t frame = 0; frame < 3; ++frame) {
     graph::StepProfile step;
     step.row = "Ao, wide";
@@ -63,9 +63,9 @@ TEST(Profile, TheTableLeavesTheFirstFrameOut) {
   EXPECT_THAT(exampleLog().table(), HasSubstr("mean of 2 frames (the first left out)"));
 }
 
-TEST(Profile, OnlyCsvAndJsonAreWritten) {
-  EXPECT_TRUE(ProfileLog::checkPath("a.csv"));
-  EXPECT_TRUE(ProfileLog::checkPath("a.json"));
+TEST(Profile, TheExtensionChoosesTheForm) {
+  for (const char* path : {"a.csv", "a.json", "a.md", "a.html"})
+    EXPECT_TRUE(ProfileLog::checkPath(path)) << path;
   EXPECT_EQ(ProfileLog::checkPath("a.txt").error().kind, ErrorKind::Usage);
 }
 

@@ -30,7 +30,7 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   int threads = 0;                // 0: as many as the machine has cores
   std::optional<float> exposure;  // EV; the scene's if absent
-  std::string profile;            // .csv or .json; "": none
+  std::string profile;            // .csv .json .md .html; "": none
   std::string shaderFolder;       // read before the built-in shaders; "": none
   gpu::ContextKind gl = gpu::ContextKind::Auto;
 

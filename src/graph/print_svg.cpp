@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/html.hpp"
 #include "graph/print_parts.hpp"
 
 namespace lucerna::graph {
@@ -13,24 +14,6 @@ namespace {
 constexpr int kMargin = 24, kTitle = 56, kWireSpace = 220, kBoxWidth = 300, kPortHeight = 18;
 constexpr int kBoxHead = 26, kBoxGap = 22, kLaneWidth = 34, kLaneGap = 6, kLaneHead = 24;
 constexpr int kWireStep = 9, kLegendLine = 18;
-
-// Fills told apart also by people who see few colours (Okabe and Ito, 2008).
-constexpr const char* kColors[] = {"#56b4e9", "#e69f00", "#009e73", "#f0e442",
-                                   "#0072b2", "#d55e00", "#cc79a7"};
-
-std::string escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text)
-    if (c == '<')
-      result += "&lt;";
-    else if (c == '&')
-      result += "&amp;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (static_cast<unsigned char>(c) >= ' ')
-      result += c;
-  return result;
-}
 
 struct Box {
   int top = 0, height = 0;
@@ -86,8 +69,9 @@ class Drawing {
     text += fmt::format(
         "<text x=\"{}\" y=\"{}\" font-size=\"20\" font-weight=\"bold\">{}</text>\n"
         "<text x=\"{}\" y=\"{}\" fill=\"#555\">{} x {}, output {}</text>\n",
-        kMargin, kMargin + 16, escaped(pipeline_.name), kMargin, kMargin + 38,
-        schedule_.outputSize.x, schedule_.outputSize.y, escaped(sourceText(plan_, plan_.output)));
+        kMargin, kMargin + 16, escapedXml(pipeline_.name), kMargin, kMargin + 38,
+        schedule_.outputSize.x, schedule_.outputSize.y,
+        escapedXml(sourceText(plan_, plan_.output)));
     return text;
   }
 
@@ -116,7 +100,7 @@ class Drawing {
         "<text x=\"{}\" y=\"{}\" font-weight=\"bold\">{} {}</text>\n",
         boxLeft(), box.top, kBoxWidth, box.height, pass ? "#f4f4f4" : "#ffffff",
         pass ? "" : " stroke-dasharray=\"4 3\"", boxLeft() + 10, box.top + 17, s + 1,
-        escaped(step.name));
+        escapedXml(step.name));
     if (!pass) return;
     if (step.frequency != Frequency::PerView)
       body_ += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"#777\">{}</text>\n",
@@ -132,7 +116,8 @@ class Drawing {
       body_ += fmt::format(
           "<circle cx=\"{}\" cy=\"{}\" r=\"3.5\" fill=\"#fff\" stroke=\"#333\"/>\n"
           "<text x=\"{}\" y=\"{}\">{}{}</text>\n",
-          boxLeft(), y, boxLeft() + 10, y + 4, escaped(port.name), port.history ? " (last)" : "");
+          boxLeft(), y, boxLeft() + 10, y + 4, escapedXml(port.name),
+          port.history ? " (last)" : "");
     }
     if (port.direction != Direction::In) {
       const int y = portY(s, port.name, Direction::In);
@@ -141,13 +126,13 @@ class Drawing {
           "<circle cx=\"{}\" cy=\"{}\" r=\"3.5\" fill=\"{}\" stroke=\"#333\"/>\n"
           "<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"{}\">{}</text>\n",
           boxLeft() + kBoxWidth, y, made ? colorOf(step.versions[p]) : "#fff",
-          boxLeft() + kBoxWidth - 10, y + 4, made ? "#000" : "#999", escaped(port.name));
+          boxLeft() + kBoxWidth - 10, y + 4, made ? "#000" : "#999", escapedXml(port.name));
     }
   }
 
-  const char* colorOf(std::size_t version) const {
+  std::string_view colorOf(std::size_t version) const {
     const Version& v = schedule_.versions[version];
-    return v.type.texture ? kColors[v.physical % std::size(kColors)] : "#999999";
+    return v.type.texture ? seriesColor(v.physical) : "#999999";
   }
 
   // Wires run left of the boxes, each in a column of its own as far as there is room; a resource is
@@ -159,7 +144,7 @@ class Drawing {
       body_ += fmt::format(
           "<text x=\"{}\" y=\"{}\" text-anchor=\"end\" fill=\"#777\" "
           "font-style=\"italic\">{}</text>\n",
-          boxLeft() - 8, y + 4, escaped(wire.resource));
+          boxLeft() - 8, y + 4, escapedXml(wire.resource));
       return;
     }
     const int columns = (kWireSpace - 76) / kWireStep;
@@ -205,11 +190,11 @@ class Drawing {
     body_ += fmt::format(
         "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"3\" fill=\"{}\" "
         "fill-opacity=\"0.55\" stroke=\"#333\"><title>{}: {}</title></rect>\n",
-        x + inset, top, kLaneWidth - 2 * inset, bottom - top, colorOf(v), escaped(version.name),
-        escaped(holderText(schedule_, version)));
+        x + inset, top, kLaneWidth - 2 * inset, bottom - top, colorOf(v), escapedXml(version.name),
+        escapedXml(holderText(schedule_, version)));
     body_ +=
         fmt::format("<text transform=\"translate({} {}) rotate(90)\" font-size=\"10\">{}</text>\n",
-                    x + kLaneWidth / 2 - 3, top + 5, escaped(version.name));
+                    x + kLaneWidth / 2 - 3, top + 5, escapedXml(version.name));
   }
 
   void drawLegend() {
@@ -219,8 +204,7 @@ class Drawing {
       body_ += fmt::format(
           "<rect x=\"{}\" y=\"{}\" width=\"12\" height=\"12\" fill=\"{}\" fill-opacity=\"0.55\" "
           "stroke=\"#333\"/>\n<text x=\"{}\" y=\"{}\">texture {}: {}, {:.2f} MiB</text>\n",
-          kMargin, y - 10, kColors[t % std::size(kColors)], kMargin + 20, y, t,
-          escaped(textureText(texture)),
+          kMargin, y - 10, seriesColor(t), kMargin + 20, y, t, escapedXml(textureText(texture)),
           mebibytes(texture.desc.bytes() * (texture.history ? 2 : 1)));
     }
     body_ += fmt::format(

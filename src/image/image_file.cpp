@@ -66,19 +66,6 @@ Status checkSize(const codec::Header& header, codec::ByteView bytes, const std::
   return {};
 }
 
-Result<Bytes> encode(const std::filesystem::path& path, const Image& image) {
-  const std::string extension = path.extension().string();
-  if (equalIgnoringCase(extension, ".png")) return codec::encodePng(image, path.string());
-  if (equalIgnoringCase(extension, ".hdr")) return codec::encodeHdr(image, path.string());
-  if (equalIgnoringCase(extension, ".exr")) {
-    static const std::vector<std::string> kNames[] = {
-        {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    return codec::encodeExr({{"", kNames[image.channels() - 1], image}}, path.string());
-  }
-  return error(ErrorKind::Usage, "{}: pictures are written as .png, .hdr or .exr, not '{}'",
-               path.string(), extension);
-}
-
 }  // namespace
 
 std::uint64_t ImageInfo::bytes() const {
@@ -105,9 +92,22 @@ Result<ImageInfo> imageInfo(std::span<const std::byte> bytes, const std::string&
   return header.info;
 }
 
+Result<Bytes> encodeImage(const std::filesystem::path& path, const Image& image) {
+  const std::string extension = path.extension().string();
+  if (equalIgnoringCase(extension, ".png")) return codec::encodePng(image, path.string());
+  if (equalIgnoringCase(extension, ".hdr")) return codec::encodeHdr(image, path.string());
+  if (equalIgnoringCase(extension, ".exr")) {
+    static const std::vector<std::string> kNames[] = {
+        {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    return codec::encodeExr({{"", kNames[image.channels() - 1], image}}, path.string());
+  }
+  return error(ErrorKind::Usage, "{}: pictures are written as .png, .hdr or .exr, not '{}'",
+               path.string(), extension);
+}
+
 Status writeImage(const std::filesystem::path& path, const Image& image) {
   CHECK(!image.empty());
-  LUCERNA_TRY(bytes, encode(path, image));
+  LUCERNA_TRY(bytes, encodeImage(path, image));
   return writeFile(path, bytes);
 }
 

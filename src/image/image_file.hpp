@@ -37,8 +37,10 @@ struct ImageInfo {
 // Reads only the header.
 Result<ImageInfo> imageInfo(std::span<const std::byte> bytes, const std::string& name);
 
-// .png (U8/U16, 1 to 4 channels), .hdr (F32), .exr (F32 or Half). Writes beside the target and
-// renames.
+// .png (U8/U16, 1 to 4 channels), .hdr (F32), .exr (F32 or Half), as the extension says; the path
+// is used in messages too.
+Result<Bytes> encodeImage(const std::filesystem::path& path, const Image& image);
+// Writes beside the target and renames.
 Status writeImage(const std::filesystem::path& path, const Image& image);
 
 // One file with several named layers; "" is the main one (R, G, B, A), "depth" gives depth.Z or

@@ -92,7 +92,7 @@ class CliTest(unittest.TestCase):
         fails("--pipeline", "wanted a value", flags=["--pipeline"])
         fails("--profile", "does not exist", flags=["--profile", "nowhere/p.csv"])
         fails("frame-%04d.png", flags=["--frames", "2"])
-        fails("--profile", ".csv or .json", flags=["--profile", "p.txt"])
+        fails("--profile", ".csv, .json, .md or .html", flags=["--profile", "p.txt"])
         fails("--layers", ".exr", flags=["--layers", "depth"])
         fails("--shaders", flags=["--shaders", "nowhere"])
         fails("ToneMap", "exposure", flags=["--set", "ToneMap.exposur=1"])
