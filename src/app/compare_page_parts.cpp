@@ -11,6 +11,7 @@ const std::string_view kComparePageStyle = R"css(
 #readout { margin: .6rem 0; }
 #readout th, #readout td { min-width: 5.5rem; }
 .pictures { display: flex; gap: 1rem; flex-wrap: wrap; }
+#metrics td:last-child { text-align: left; }
 figure { flex: 1 1 15rem; margin: 0; } figure img { width: 100%; image-rendering: auto; }
 #legend { height: .8rem; }
 )css";

@@ -120,7 +120,8 @@ std::string profileHtml(const ProfileLog& log) {
   for (const PassCost& pass : summary.passes) names.push_back(nameOf(pass, manyViews));
   const std::string body = fmt::format(
       "<h1>Cost of a frame</h1>\n<p>{}</p>\n<p class=\"quiet\">{}</p>\n{}"
-      "<p class=\"quiet\">{}</p>\n<h2>By pass: mean time; the line is the median</h2>\n{}"
+      "<p class=\"quiet\">{}</p>\n<h2>By pass: mean GPU time, and CPU time in grey; a line marks "
+      "the median</h2>\n{}"
       "<h2>Frame by frame: GPU time</h2>\n{}",
       escapedXml(whatWasMeasured(summary, log.subject())),
       escapedXml(howGpuTimeWasMeasured(log.subject())), htmlTable(summary, manyViews), kMemoryNote,
