@@ -10,11 +10,32 @@ constexpr std::uint32_t kUnsupportedFlags = 0x800;  // deep data
 constexpr std::uint32_t kTiledFlag = 0x200;
 constexpr std::uint32_t kPartsFlag = 0x1000;  // several headers, then an empty one
 
+// Types whose values OpenEXR reads whatever size the file declares for them; its reading would part
+// from ours if that were another.
+struct FixedSize {
+  std::string_view type;
+  std::size_t bytes;
+};
+constexpr FixedSize kFixedSizes[] = {{"box2i", 16},      {"box2f", 16},   {"chromaticities", 32},
+                                     {"compression", 1}, {"double", 8},   {"envmap", 1},
+                                     {"float", 4},       {"int", 4},      {"keycode", 28},
+                                     {"lineOrder", 1},   {"m33f", 36},    {"m33d", 72},
+                                     {"m44f", 64},       {"m44d", 128},   {"rational", 8},
+                                     {"tiledesc", 9},    {"timecode", 8}, {"v2i", 8},
+                                     {"v2f", 8},         {"v2d", 16},     {"v3i", 12},
+                                     {"v3f", 12},        {"v3d", 24},     {"deepImageState", 1}};
+
+bool sizeFits(std::string_view type, std::size_t bytes) {
+  const auto* fixed = std::ranges::find(kFixedSizes, type, &FixedSize::type);
+  return fixed == std::end(kFixedSizes) || fixed->bytes == bytes;
+}
+
 // Reads forward; `failed` once anything lies beyond the end.
 class Cursor {
  public:
   explicit Cursor(ByteView bytes) : bytes_(bytes) {}
   bool failed() const { return failed_; }
+  bool atEnd() const { return at_ == bytes_.size(); }
 
   ByteView take(std::size_t count) {
     if (failed_ || count > bytes_.size() - at_) {
@@ -47,7 +68,7 @@ bool readChannels(Cursor value, ExrHeader& header) {
   for (;;) {
     ExrChannel channel;
     channel.name = value.text();
-    if (channel.name.empty()) return !value.failed();
+    if (channel.name.empty()) return !value.failed() && value.atEnd();
     const std::uint32_t type = value.u32();
     value.take(12);  // linearity, reserved, sampling
     if (value.failed() || type > 2) return false;
@@ -74,9 +95,10 @@ Status readAttributes(Cursor& cursor, const std::string& name, ExrHeader& header
   for (attributes = 0;; ++attributes) {
     const std::string attribute = cursor.text();
     if (attribute.empty()) break;
-    cursor.text();  // its type
+    const std::string type = cursor.text();
     const ByteView value = cursor.take(cursor.u32());
-    if (cursor.failed() || !readAttribute(attribute, Cursor(value), header))
+    if (cursor.failed() || !sizeFits(type, value.size()) ||
+        !readAttribute(attribute, Cursor(value), header))
       return corrupt(name, "EXR", "attribute '" + attribute + "' of the header is damaged");
   }
   if (cursor.failed()) return corrupt(name, "EXR", "the header ends too early");
