@@ -179,9 +179,11 @@ class Device {
   // them), all or none: if one that worked does not compile any more, all stay as they are, and the
   // error (ErrorKind::Pipeline) says why. Returns how many there were.
   Result<int> reloadShaders(std::span<const std::string> changed);
-  // Shader faults since the last call, each with file and line (ErrorKind::Pipeline).
+  // Faults since the last call: of shaders, each with file and line (ErrorKind::Pipeline), and
+  // those reported.
   std::vector<Error> takeErrors();
-  // Adds one, for whoever finds that a program that compiled is not the one it can use.
+  // Adds one, for whoever finds while drawing that it cannot do its work: with a program that
+  // compiled, say, but does not fit.
   void reportError(Error error);
 
   Rendering render(const Targets& targets);

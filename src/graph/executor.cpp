@@ -88,7 +88,7 @@ struct Executor::Impl {
   void runPass(RunStep& run, PassContext& context);
   void runFill(const Step& step);
   void finishProfile();
-  Status takeShaderErrors();
+  Status takeErrors();
   const gpu::Texture* textureOf(std::size_t version, std::size_t view);
 
   gpu::Device& device;
@@ -134,7 +134,7 @@ Status Executor::Impl::setPipeline(const Pipeline& next, uvec2 size,
     makeInstances();
     storage.prepare(schedule);
     makeSteps();
-    status = takeShaderErrors();
+    status = takeErrors();
     if (!status) rows.clear();  // a kept instance would not ask for its broken program again
   }
   if (!status) {
@@ -289,7 +289,7 @@ Status Executor::Impl::runViews(const FrameInput& input, PassContext& context,
     findResources(input.views[view], true);
     context.view = static_cast<int>(view);
     for (std::size_t s = firstPerView; s < steps.size(); ++s) runStep(s, context);
-    LUCERNA_TRY_VOID(takeShaderErrors());
+    LUCERNA_TRY_VOID(takeErrors());
     currentView = view;
     if (onView) onView(context.view, *textureOf(schedule.output, view));
   }
@@ -361,12 +361,12 @@ void Executor::Impl::finishProfile() {
   profile.textureBytes = storage.textureBytes();
 }
 
-Status Executor::Impl::takeShaderErrors() {
+Status Executor::Impl::takeErrors() {
   const std::vector<Error> errors = device.takeErrors();
   if (errors.empty()) return {};
   std::vector<std::string> messages;
   for (const Error& e : errors) messages.push_back(e.message);
-  return Error{ErrorKind::Pipeline, join(messages, "\n")};
+  return Error{errors.front().kind, join(messages, "\n")};
 }
 
 const gpu::Texture* Executor::Impl::textureOf(std::size_t version, std::size_t view) {

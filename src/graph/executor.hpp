@@ -75,7 +75,8 @@ class Executor {
   Status setParam(const std::string& row, const std::string& param, const Value& value);
 
   // Runs all steps; after each view's steps calls onView(view, output) while its textures are
-  // alive. A shader that does not compile is an error (ErrorKind::Pipeline), and its view is not
+  // alive. A shader that does not compile is an error (ErrorKind::Pipeline), as is what a pass
+  // reported to the device (a file that cannot be written: ErrorKind::Failed); its view is not
   // handed over. All resources that the pipeline reads must be given (asserted).
   Status execute(const FrameInput& input,
                  const std::function<void(int view, const gpu::Texture& output)>& onView);

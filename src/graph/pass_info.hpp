@@ -140,6 +140,8 @@ class PassInfo {
   void pass(std::string type, std::string summary);
   void runs(Frequency frequency) { description_.frequency = frequency; }
   void needs(std::string_view feature) { description_.features.emplace_back(feature); }
+  // What the values ask for and the pass cannot give.
+  void fault(DescriptionFault fault) { description_.faults.push_back(std::move(fault)); }
 
   // Member: bool, int, float, std::string, vec2, vec3, vec4 or an enum with choices().
   template <typename Member>

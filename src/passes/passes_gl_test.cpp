@@ -14,16 +14,21 @@ namespace {
 
 constexpr uvec2 kSize{64, 36};
 
-// Rows that run the pass, and the value it makes.
+// Rows that run the pass, the value they make, and values that the pass needs.
 struct Stage {
   std::vector<std::string> rows;
   std::string value;
+  graph::ParamValues params{};
 };
 
 Stage stageOf(const std::string& type) {
   if (type == "Forward") return {testing::kForwardRows, "ToneMap.color"};
   if (type == "Fullscreen")  // of any format, so nobody reads it
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
+  if (type == "SaveImage")
+    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "SaveImage"},
+            "ToneMap.color",
+            {{"file", ::testing::TempDir() + "lucerna-each-pass.png"}}};
   if (type == "ShowGBuffer")
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
   if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())
@@ -80,7 +85,9 @@ TEST_P(EachPassDraws, FiniteValuesAtTheEndsOfEachParameter) {
   std::vector<std::string> kept;
   if (makesColor) kept.push_back(own);
   for (const graph::ParamDescription& param : description.params)
-    for (const graph::Value& value : extremes(param)) {
+    for (const graph::Value& value : stage.params.contains(param.name)
+                                         ? std::vector{stage.params.at(param.name)}
+                                         : extremes(param)) {
       SCOPED_TRACE(param.name + "=" + graph::toText(value));
       graph::Pipeline pipeline = testing::rows(stage.rows);
       pipeline.output = stage.value;

@@ -6,6 +6,7 @@
 #include "passes/fullscreen/fullscreen.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/lighting/lighting.hpp"
+#include "passes/save_image/save_image.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
 #include "passes/tone_map/tone_map.hpp"
@@ -36,6 +37,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ToneMap>();
   registry.add<ShowGBuffer>();
   registry.add<ShowBvh>();
+  registry.add<SaveImage>();
   registry.add(fullscreenType(registry.shaders()));
 }
 
