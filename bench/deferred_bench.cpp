@@ -41,8 +41,8 @@ Status frame(app::Session& session, Way& way, bool counts) {
   session.device->finish();
   session.device->resetCounters();
   const auto start = Clock::now();
-  const Status status =
-      app::runFrame(session, nullptr, [&](app::Session& s, const gpu::Texture& output) -> Status {
+  const Status status = app::runFrame(
+      session, nullptr, [&](app::Session& s, int, const gpu::Texture& output) -> Status {
         s.device->finish();
         if (counts)
           way.milliseconds.push_back(

@@ -1,7 +1,9 @@
 // lucerna render SCENE -o out.png|.mp4
 
 #include <chrono>
+#include <map>
 #include <memory>
+#include <optional>
 
 #include "app/frame.hpp"
 #include "app/frame_writer.hpp"
@@ -24,10 +26,11 @@ Json document(const app::Session& session, const app::FrameWriter& writer, doubl
   std::vector<std::string> warnings = session.scene.warnings;
   const auto& ofPipeline = session.executor->warnings();
   warnings.insert(warnings.end(), ofPipeline.begin(), ofPipeline.end());
+  const uvec2 size = session.settings.pictureSize();
   return {{"files", std::move(files)},
           {"scene", session.scene.name},
           {"pipeline", session.pipeline.name},
-          {"size", {session.settings.size.x, session.settings.size.y}},
+          {"size", {size.x, size.y}},
           {"frames", session.frame},
           {"seconds", seconds},
           {"renderer", session.device->description()},
@@ -37,14 +40,15 @@ Json document(const app::Session& session, const app::FrameWriter& writer, doubl
 }
 
 Status renderFrames(app::Session& session, app::FrameWriter& writer, app::ProfileLog* profile) {
-  Progress progress("rendering", session.settings.frames);
-  const app::FrameSink write = [&](app::Session& s, const gpu::Texture& output) {
-    return writer.write(s, output);
+  std::optional<Progress> progress;  // the first frame says how many views there are
+  const app::FrameSink write = [&](app::Session& s, int view, const gpu::Texture& output) -> Status {
+    if (!progress) progress.emplace("rendering", s.settings.frames * s.plan.places.size());
+    LUCERNA_TRY_VOID(writer.write(s, view, output));
+    progress->advance();
+    return {};
   };
-  while (session.frame < session.settings.frames) {
+  while (session.frame < session.settings.frames)
     LUCERNA_TRY_VOID(app::runFrame(session, profile, write));
-    progress.advance();
-  }
   return {};
 }
 
@@ -63,6 +67,14 @@ Status writeProfile(const app::ProfileLog& profile, const std::string& path) {
   return {};
 }
 
+// "city.mp4, 120 frames", "frame-0059.png and 59 more".
+std::string whatWasWritten(const app::Session& session, const app::FrameWriter& writer) {
+  const std::string last = writer.written().back().string();
+  const std::size_t files = writer.written().size();
+  if (files > 1) return fmt::format("{} and {} more", last, files - 1);
+  return session.frame > 1 ? fmt::format("{}, {} frames", last, session.frame) : last;
+}
+
 Result<int> render(const Options& options, bool json) {
   const auto start = std::chrono::steady_clock::now();
   LUCERNA_TRY(writer, app::FrameWriter::create(options.output, options.render));
@@ -76,16 +88,13 @@ Result<int> render(const Options& options, bool json) {
     LUCERNA_TRY_VOID(writer.finish());
     LUCERNA_TRY_VOID(writeProfile(profile, profilePath));
   }
-  if (!drawn && !writer.written().empty())
-    log::info("kept: {}, {} frames", writer.written().back().string(), session->frame);
+  if (!drawn && !writer.written().empty()) log::info("kept {}", whatWasWritten(*session, writer));
   LUCERNA_TRY_VOID(drawn);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   if (json)
     printJson(document(*session, writer, seconds.count()));
   else
-    log::info("wrote {}{} in {:.2f} s", writer.written().back().string(),
-              session->frame > 1 ? fmt::format(" and {} more", session->frame - 1) : "",
-              seconds.count());
+    log::info("wrote {} in {:.2f} s", whatWasWritten(*session, writer), seconds.count());
   return 0;
 }
 
@@ -103,6 +112,28 @@ void addVideoFlags(CLI::App& command, const std::shared_ptr<Options>& options) {
                          ->check(wholeNumber(0, 51));
   command.add_flag("--lossless", output.lossless, "FFV1 instead of H.264; needs an .mkv file")
       ->excludes(crf);
+}
+
+void addStereoFlags(CLI::App& command, app::StereoSettings& stereo) {
+  const std::map<std::string, app::StereoLayout> layouts{{"sbs", app::StereoLayout::SideBySide},
+                                                         {"tb", app::StereoLayout::TopBottom},
+                                                         {"anaglyph", app::StereoLayout::Anaglyph}};
+  CLI::Option* layout =
+      command
+          .add_option_function<std::string>(
+              "--stereo",
+              [&stereo, layouts](const std::string& name) { stereo.layout = layouts.at(name); },
+              "sbs (left eye left, twice as wide), tb (left eye above, twice as "
+              "high) or anaglyph (left eye red)")
+          ->check(oneOf({"sbs", "tb", "anaglyph"}));
+  command.add_option("--separation", stereo.separation, "m between the eyes (0.065)")
+      ->check(between(0, 1000, "m"))
+      ->needs(layout);
+  command
+      .add_option("--convergence", stereo.convergence,
+                  "m ahead, where the eyes' pictures coincide (3)")
+      ->check(between(0.001, 1e6, "m"))
+      ->needs(layout);
 }
 
 }  // namespace
@@ -132,6 +163,17 @@ void addRender(CommandLine& line) {
           "half or float (half); depth is always float")
       ->check(oneOf({"half", "float"}));
   addVideoFlags(*command, options);
+  command
+      ->add_option_function<std::uint64_t>(
+          "--tile",
+          [options](std::uint64_t side) {
+            constexpr std::uint64_t kGrid = app::kTileGrid;
+            options->render.tile = static_cast<int>((side + kGrid - 1) / kGrid * kGrid);
+          },
+          "draw in tiles of N x N px, rounded up to 16 (only where the driver's textures are "
+          "smaller)")
+      ->check(wholeNumber(app::kTileGrid, app::kMaxSide));
+  addStereoFlags(*command, options->render.stereo);
 }
 
 }  // namespace lucerna::cli

@@ -1,13 +1,18 @@
 #include "app/frame.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/log.hpp"
 #include "core/progress.hpp"
+#include "graph/reach.hpp"
 #include "scene/view.hpp"
 
 namespace lucerna::app {
 namespace {
+
+// px of a tile where the picture is too large for the driver: a G-buffer of some 400 MiB.
+constexpr int kTileSide = 4096;
 
 void moveLights(Session& s) {
   render::updateLights(*s.device, s.lights, s.scene);
@@ -25,11 +30,24 @@ void applySceneChanges(Session& s) {
     moveCamera(s.scene, s.camera, s.cameraPath->at(s.time()));
     if (s.scene.headlight != scene::kNone) moveLights(s);
   }
-  const uvec2 size = s.settings.renderSize();
+}
+
+// Where the views of the plan look from and what each shows.
+void updateViews(Session& s) {
   const float aspect =
       static_cast<float>(s.settings.size.x) / static_cast<float>(s.settings.size.y);
-  render::updateView(*s.device, s.view, scene::viewOf(s.scene, s.scene.cameras[s.camera], aspect),
-                     size);
+  const scene::View middle = scene::viewOf(s.scene, s.scene.cameras[s.camera], aspect);
+  const StereoSettings& stereo = s.settings.stereo;
+  s.views.resize(s.plan.places.size());
+  for (std::size_t i = 0; i < s.views.size(); ++i) {
+    const auto& [eye, tile] = s.plan.places[i];
+    const float side = s.plan.eyes() == 1 ? 0.f : eye == 0 ? -0.5f : 0.5f;
+    const scene::View view = scene::eyeView(middle, side * stereo.separation, stereo.convergence);
+    // Windows count from the lower left corner.
+    const ivec2 origin(tile.window.x, s.plan.picture.y - tile.window.y - s.plan.window.y);
+    render::updateView(*s.device, s.views[i], view, s.plan.picture,
+                       {.origin = origin, .size = s.plan.window});
+  }
 }
 
 bool pipelineFileChanged(Session& s) {
@@ -69,6 +87,42 @@ void reloadChangedFiles(Session& s) {
   for (const Error& fault : s.device->takeErrors()) log::error("{}", fault.message);
 }
 
+// Rows without outputs do something else with each tile: they write it.
+Status checkTiles(const graph::Plan& plan, const graph::Reach& reach) {
+  if (!reach.whole.empty())
+    return error(
+        ErrorKind::Usage,
+        "'{}' may read the whole picture, which a tile does not show; say by the row's halo "
+        "how many pixels around the one drawn it reads, or draw without tiles",
+        reach.whole);
+  for (const graph::ResolvedRow& row : plan.rows)
+    if (!row.culled &&
+        std::ranges::all_of(row.description.ports, [](const graph::PortDescription& port) {
+          return port.direction == graph::Direction::In;
+        }))
+      return error(ErrorKind::Usage,
+                   "'{}' would write every tile by itself; leave the row out by --set "
+                   "{}.enabled=false, or draw without tiles",
+                   row.name, row.name);
+  return {};
+}
+
+// Tiles where they are asked for or the driver's textures are too small for the picture.
+Status choosePlan(Session& s, const graph::Plan& plan) {
+  const uvec2 picture = s.settings.renderSize();
+  const int eyes = s.settings.stereo.eyes();
+  const auto limit = static_cast<unsigned>(s.device->capabilities().maxTextureSide);
+  const bool tooLarge = std::max(picture.x, picture.y) > limit;
+  const int side = s.settings.tile > 0 ? s.settings.tile : tooLarge ? kTileSide : 0;
+  const graph::Reach reach = graph::reachOf(plan);
+  s.plan = planViews(picture, eyes, side, reach.pixels);
+  const std::size_t tiles = s.plan.places.size() / static_cast<std::size_t>(eyes);
+  if (tiles == 1) return {};
+  LUCERNA_TRY_VOID(checkTiles(plan, reach));
+  log::info("{} tiles of {} px, with a guard band of {} px", tiles, side, reach.pixels);
+  return {};
+}
+
 Status rebuildSchedule(Session& s) {
   if (!s.rebuild) return {};
   const auto validation = graph::validate(s.pipeline, s.registry, s.device->capabilities());
@@ -77,16 +131,19 @@ Status rebuildSchedule(Session& s) {
   s.layers = std::move(layers);
   std::vector<std::string> kept;
   for (const LayerSource& layer : s.layers) kept.push_back(layer.port);
-  LUCERNA_TRY_VOID(s.executor->setPipeline(s.pipeline, s.settings.renderSize(), kept));
+  const auto keeping = graph::validate(s.pipeline, s.registry, s.device->capabilities(), kept);
+  LUCERNA_TRY_VOID(choosePlan(s, *keeping.plan));
+  LUCERNA_TRY_VOID(s.executor->setPipeline(s.pipeline, s.plan.window, kept));
   s.rebuild = false;
   return {};
 }
 
-Status runSteps(Session& s, const std::function<void(const gpu::Texture&)>& take) {
-  graph::Imports shared, view;
+Status runSteps(Session& s, const graph::Executor::OnView& take) {
+  graph::Imports shared;
   shared.set("scene", s.gpuScene);
   shared.set("lights", s.lights);
-  view.set("view", s.view);
+  std::vector<graph::Imports> views(s.views.size());
+  for (std::size_t i = 0; i < views.size(); ++i) views[i].set("view", s.views[i]);
   const render::SceneChanges& changes = s.gpuScene.changes;
   const graph::FrameInput input{.time = s.time(),
                                 .timeStep = s.settings.timeStep,
@@ -96,8 +153,8 @@ Status runSteps(Session& s, const std::function<void(const gpu::Texture&)>& take
                                 .sceneChanged = changes.everything || changes.lights ||
                                                 changes.materials || !changes.movedObjects.empty(),
                                 .shared = std::move(shared),
-                                .views = {&view, 1}};
-  return s.executor->execute(input, [&](int, const gpu::Texture& output) { take(output); });
+                                .views = views};
+  return s.executor->execute(input, take);
 }
 
 // Presents or writes.
@@ -105,9 +162,17 @@ Status draw(Session& s, const FrameSink& sink) {
   Status taken;
   const auto attempt = [&]() -> Status {
     LUCERNA_TRY_VOID(rebuildSchedule(s));
-    return runSteps(s, [&](const gpu::Texture& output) { taken = sink(s, output); });
+    updateViews(s);
+    return runSteps(s, [&](int view, const gpu::Texture& output) {
+      taken = sink(s, view, output);
+      const bool last = view + 1 == static_cast<int>(s.views.size());
+      if (taken && !last && Progress::cancelled())
+        taken = error(ErrorKind::Cancelled, "cancelled in frame {}", s.frame);
+      return taken;
+    });
   };
   Status drawn = attempt();
+  LUCERNA_TRY_VOID(taken);
   if (!drawn && s.lastGood) {
     log::error("{}", drawn.error().message);
     log::warning("{}: the pipeline before goes on until it or one of its shaders is corrected",
@@ -119,7 +184,7 @@ Status draw(Session& s, const FrameSink& sink) {
   }
   LUCERNA_TRY_VOID(drawn);
   s.lastGood.reset();
-  return taken;
+  return {};
 }
 
 void finishFrame(Session& s, ProfileLog* profile) {

@@ -7,11 +7,10 @@
 
 namespace lucerna::app {
 
-// Gets the view's output while the textures of its frame are alive.
-using FrameSink = std::function<Status(Session& session, const gpu::Texture& output)>;
+// Gets each view's output while its textures are alive: one a frame, or those of session.plan.
+using FrameSink = std::function<Status(Session& session, int view, const gpu::Texture& output)>;
 
-// One frame, from what changed to the picture handed to `sink`. On an error nothing was handed
-// over.
+// One frame, from what changed to the pictures handed to `sink`, whose error ends it.
 Status runFrame(Session& session, ProfileLog* profile, const FrameSink& sink);
 
 }  // namespace lucerna::app

@@ -42,6 +42,32 @@ Status checkVideoFlags(const OutputSettings& output, OutputKind kind) {
                output.path);
 }
 
+// The whole picture is put together in memory, as the readers of such files will do.
+Status checkSize(const RenderSettings& settings, OutputKind kind) {
+  const uvec2 size = settings.pictureSize(), rendered = settings.renderSize();
+  const std::uint64_t pixels =
+      std::max(std::uint64_t{size.x} * size.y, std::uint64_t{rendered.x} * rendered.y);
+  const std::uint64_t bytes = pixels * (holdsLinear(kind) ? 3 * sizeof(float) : 3);
+  const std::uint64_t limit = ImageLimits().maxBytes;
+  if (bytes <= limit) return {};
+  return error(
+      ErrorKind::Usage,
+      "--size: a picture of {} x {}{} takes {} MiB, at most {} are allowed; make it "
+      "smaller",
+      size.x, size.y,
+      rendered == settings.size ? "" : fmt::format(" (rendered {} x {})", rendered.x, rendered.y),
+      bytes >> 20, limit >> 20);
+}
+
+Status checkStereo(const StereoSettings& stereo, const std::vector<LayerKind>& layers) {
+  const auto isColor = [](LayerKind kind) { return kind == LayerKind::Color; };
+  if (stereo.layout != StereoLayout::Anaglyph || std::ranges::all_of(layers, isColor)) return {};
+  return error(
+      ErrorKind::Usage,
+      "--layers: an anaglyph holds two colours of one eye and one of the other, which only "
+      "'color' has; take --stereo sbs or tb");
+}
+
 }  // namespace
 
 Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
@@ -67,6 +93,8 @@ Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
   };
   // Where the depth is empty there is no normal.
   if (has(LayerKind::Normal) && !has(LayerKind::Depth)) writer.wanted_.push_back(LayerKind::Depth);
+  LUCERNA_TRY_VOID(checkStereo(settings.stereo, writer.layers_));
+  LUCERNA_TRY_VOID(checkSize(settings, writer.name_.kind()));
   if (writer.name_.kind() == OutputKind::Video)
     LUCERNA_TRY_VOID(writer.openVideo(output, settings));
   return writer;
@@ -77,8 +105,9 @@ Status FrameWriter::openVideo(const OutputSettings& output, const RenderSettings
     return error(ErrorKind::Usage,
                  "-o: '{}' needs a frame rate, and --time-step 0 gives none; add --fps",
                  output.path);
-  VideoSettings video{.width = static_cast<int>(settings.size.x),
-                      .height = static_cast<int>(settings.size.y),
+  const uvec2 size = settings.pictureSize();
+  VideoSettings video{.width = static_cast<int>(size.x),
+                      .height = static_cast<int>(size.y),
                       .framesPerSecond = output.fps ? *output.fps : 1 / settings.timeStep,
                       .codec = output.lossless ? VideoCodec::Ffv1 : VideoCodec::H264};
   if (output.crf) video.crf = *output.crf;
@@ -87,43 +116,77 @@ Status FrameWriter::openVideo(const OutputSettings& output, const RenderSettings
   return {};
 }
 
-Status FrameWriter::write(Session& session, const gpu::Texture& output) {
-  const std::filesystem::path path = name_.at(session.frame);
-  if (holdsLinear(name_.kind())) {
-    LUCERNA_TRY_VOID(writeLayers(session, path));
-  } else {
-    const Image picture =
-        resizedSrgb(encodedRgb(session.device->download(output)), session.settings.size);
-    LUCERNA_TRY_VOID(video_ ? video_->add(picture) : writeImage(path, picture));
+Result<std::vector<FrameWriter::Part>> FrameWriter::read(Session& session, int view,
+                                                         const gpu::Texture& output) const {
+  std::vector<Part> parts;
+  if (!holdsLinear(name_.kind())) {
+    parts.push_back({{}, {"", {}, encodedRgb(session.device->download(output))}});
+    return parts;
   }
+  const gpu::Texture* depth = nullptr;
+  for (const LayerSource& source : session.layers)
+    if (source.kind == LayerKind::Depth) depth = session.executor->kept(source.port);
+  for (const LayerSource& source : session.layers) {
+    if (std::find(layers_.begin(), layers_.end(), source.kind) == layers_.end()) continue;
+    const gpu::Texture* texture = session.executor->kept(source.port);
+    if (!texture)
+      return error(ErrorKind::Pipeline, "{}: '{}' is not a texture, so it cannot be written",
+                   name_.at(session.frame).string(), source.port);
+    const scene::View& from = session.views[static_cast<std::size_t>(view)].view;
+    parts.push_back({source.kind, readLayer(*session.device, source.kind, *texture, depth, from)});
+  }
+  return parts;
+}
+
+Status FrameWriter::write(Session& session, int view, const gpu::Texture& output) {
+  const auto& [eye, tile] = session.plan.places[static_cast<std::size_t>(view)];
+  LUCERNA_TRY(parts, read(session, view, output));
+  if (view == 0) eyes_.assign(static_cast<std::size_t>(session.plan.eyes()), {});
+  std::vector<Part>& whole = eyes_[static_cast<std::size_t>(eye)];
+  if (whole.empty())
+    for (const Part& part : parts)
+      whole.push_back({part.kind, {part.layer.name, part.layer.channels, {}}});
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    placeTile(whole[i].layer.image, std::move(parts[i].layer.image), session.plan, tile);
+  const bool last = view + 1 == static_cast<int>(session.plan.places.size());
+  return last ? writeFrame(session) : Status();
+}
+
+// Each eye is resized by itself, so that they do not mix where they meet.
+Image FrameWriter::finished(std::size_t part, const RenderSettings& settings) {
+  std::vector<Image> eyes;
+  for (std::vector<Part>& eye : eyes_) {
+    const auto& [kind, layer] = eye[part];
+    eyes.push_back(kind ? resizedLayer(layer.image, *kind, settings.size)
+                        : resizedSrgb(layer.image, settings.size));
+    eye[part].layer.image = {};
+  }
+  return joinEyes(std::move(eyes), settings.stereo.layout);
+}
+
+Status FrameWriter::writeFrame(const Session& session) {
+  const std::filesystem::path path = name_.at(session.frame);
+  std::vector<ExrLayer> layers;
+  for (std::size_t i = 0; i < eyes_[0].size(); ++i) {
+    const auto& [kind, like] = eyes_[0][i];
+    ExrLayer layer{like.name, like.channels, finished(i, session.settings)};
+    // A half reaches to 65504 with eleven bits: too little for distances.
+    if (name_.kind() == OutputKind::Exr && kind != LayerKind::Depth)
+      layer.image = converted(layer.image, exrType_, layer.image.channels());
+    layers.push_back(std::move(layer));
+  }
+  if (video_)
+    LUCERNA_TRY_VOID(video_->add(layers[0].image));
+  else if (name_.kind() == OutputKind::Exr)
+    LUCERNA_TRY_VOID(writeExr(path, layers));
+  else
+    LUCERNA_TRY_VOID(writeImage(path, layers[0].image));
   if (!video_ || written_.empty()) written_.push_back(path);
   return {};
 }
 
 Status FrameWriter::finish() {
   return video_ && !written_.empty() ? video_->finish() : Status();
-}
-
-Status FrameWriter::writeLayers(Session& session, const std::filesystem::path& path) {
-  const gpu::Texture* depth = nullptr;
-  for (const LayerSource& source : session.layers)
-    if (source.kind == LayerKind::Depth) depth = session.executor->kept(source.port);
-  std::vector<ExrLayer> layers;
-  for (const LayerSource& source : session.layers) {
-    if (std::find(layers_.begin(), layers_.end(), source.kind) == layers_.end()) continue;
-    const gpu::Texture* texture = session.executor->kept(source.port);
-    if (!texture)
-      return error(ErrorKind::Pipeline, "{}: '{}' is not a texture, so it cannot be written",
-                   path.string(), source.port);
-    ExrLayer layer = readLayer(*session.device, source.kind, *texture, depth, session.view.view);
-    layer.image = resizedLayer(layer.image, source.kind, session.settings.size);
-    // A half reaches to 65504 with eleven bits: too little for distances.
-    if (name_.kind() == OutputKind::Exr && source.kind != LayerKind::Depth)
-      layer.image = converted(layer.image, exrType_, layer.image.channels());
-    layers.push_back(std::move(layer));
-  }
-  return name_.kind() == OutputKind::Hdr ? writeImage(path, layers.front().image)
-                                         : writeExr(path, layers);
 }
 
 }  // namespace lucerna::app

@@ -21,21 +21,29 @@ class FrameWriter {
   const std::vector<LayerKind>& layers() const { return wanted_; }
 
   // A FrameSink: PNG and video are the pipeline's output; HDR and EXR hold linear values from
-  // before the tone map.
-  Status write(Session& session, const gpu::Texture& output);
+  // before the tone map. The file is written when the last of the frame's views is there.
+  Status write(Session& session, int view, const gpu::Texture& output);
   // Ends a video with the frames written so far; without it there is none.
   Status finish();
   const std::vector<std::filesystem::path>& written() const { return written_; }
 
  private:
   explicit FrameWriter(FrameName name) : name_(std::move(name)) {}
+  // What a file holds one of or several: a layer, or the encoded picture of PNG and video.
+  struct Part {
+    std::optional<LayerKind> kind;  // none: the encoded picture
+    ExrLayer layer;
+  };
   Status openVideo(const OutputSettings& output, const RenderSettings& settings);
-  Status writeLayers(Session& session, const std::filesystem::path& path);
+  Result<std::vector<Part>> read(Session& session, int view, const gpu::Texture& output) const;
+  Image finished(std::size_t part, const RenderSettings& settings);
+  Status writeFrame(const Session& session);
 
   FrameName name_;
   ComponentType exrType_ = ComponentType::Half;
-  std::vector<LayerKind> layers_;  // to be written
-  std::vector<LayerKind> wanted_;  // and what writing these needs
+  std::vector<LayerKind> layers_;        // to be written
+  std::vector<LayerKind> wanted_;        // and what writing these needs
+  std::vector<std::vector<Part>> eyes_;  // of the frame so far
   std::optional<VideoWriter> video_;
   std::vector<std::filesystem::path> written_;
 };

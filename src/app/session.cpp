@@ -56,6 +56,11 @@ Status takeScene(Session& session, Result<scene::Scene> scene) {
     session.camera = addCamera(session.scene, session.settings.cameraPath,
                                session.cameraPath->at(session.settings.time));
   scene::Scene& s = session.scene;
+  if (session.settings.stereo.eyes() > 1 && s.cameras[session.camera].orthographic)
+    return error(ErrorKind::Usage,
+                 "--stereo: the camera '{}' is orthographic and has no place for two eyes; take "
+                 "another by --camera",
+                 s.cameras[session.camera].name);
   if (s.headlight != scene::kNone) s.lights[s.headlight].node = s.cameras[session.camera].node;
   return {};
 }

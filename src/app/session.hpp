@@ -12,6 +12,7 @@
 #include "app/layers.hpp"
 #include "app/profile.hpp"
 #include "app/settings.hpp"
+#include "app/view_plan.hpp"
 #include "gpu/context.hpp"
 #include "gpu/device.hpp"
 #include "graph/executor.hpp"
@@ -39,7 +40,8 @@ struct Session {
   std::unique_ptr<gpu::Device> device;
   render::GpuScene gpuScene;
   render::LightList lights;
-  render::ViewData view;
+  ViewPlan plan;                        // follows from the pipeline and the size
+  std::vector<render::ViewData> views;  // as plan.places
   std::unique_ptr<graph::Executor> executor;
   std::vector<LayerSource> layers;  // where wantedLayers come from
 

@@ -35,9 +35,10 @@ class SessionTest : public testing::Test {
     auto session = openSession(settings_, writer->layers());
     EXPECT_TRUE(session) << session.error().message;
     for (std::uint64_t i = 0; i < settings_.frames; ++i) {
-      const Status status = runFrame(
-          **session, nullptr,
-          [&](Session& s, const gpu::Texture& texture) { return writer->write(s, texture); });
+      const Status status =
+          runFrame(**session, nullptr, [&](Session& s, int view, const gpu::Texture& texture) {
+            return writer->write(s, view, texture);
+          });
       EXPECT_TRUE(status) << status.error().message;
     }
     EXPECT_EQ((*session)->glMessages, 0);
@@ -118,7 +119,7 @@ TEST_F(SessionTest, ALayerThatThePipelineLacksIsAUsageError) {
   auto session = openSession(settings_, {LayerKind::Albedo});
   ASSERT_TRUE(session) << session.error().message;
   const Status status =
-      runFrame(**session, nullptr, [](Session&, const gpu::Texture&) { return Status(); });
+      runFrame(**session, nullptr, [](Session&, int, const gpu::Texture&) { return Status(); });
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::Usage);
   EXPECT_THAT(status.error().message, HasSubstr("albedo"));
@@ -170,7 +171,7 @@ TEST_F(SessionTest, ChangesAddUpUntilAFrameHasRun) {
   ASSERT_TRUE(opened) << opened.error().message;
   ASSERT_FALSE((*opened)->scene.animations.empty());
   std::vector<render::SceneChanges> seen;
-  const FrameSink note = [&](Session& s, const gpu::Texture&) {
+  const FrameSink note = [&](Session& s, int, const gpu::Texture&) {
     seen.push_back(s.gpuScene.changes);
     return Status();
   };
@@ -199,7 +200,7 @@ TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
   ASSERT_TRUE(opened) << opened.error().message;
   Session& session = **opened;
   session.watch = true;
-  const FrameSink ignore = [](Session&, const gpu::Texture&) { return Status(); };
+  const FrameSink ignore = [](Session&, int, const gpu::Texture&) { return Status(); };
   ASSERT_TRUE(runFrame(session, nullptr, ignore));
   EXPECT_EQ(session.pipeline.passes.size(), 4u);
 
@@ -238,7 +239,7 @@ TEST_F(SessionTest, AReloadedPipelineThatCannotBeDrawnLeavesTheLast) {
   Session& session = **opened;
   session.watch = true;
   std::vector<Image> pictures;
-  const FrameSink keep = [&](Session& s, const gpu::Texture& output) {
+  const FrameSink keep = [&](Session& s, int, const gpu::Texture& output) {
     pictures.push_back(s.device->download(output));
     return Status();
   };
@@ -268,7 +269,7 @@ TEST_F(SessionTest, AShaderThatNoLongerCompilesLeavesTheLast) {
   ASSERT_TRUE(opened) << opened.error().message;
   (*opened)->watch = true;
   int drawn = 0;
-  const FrameSink count = [&](Session&, const gpu::Texture&) {
+  const FrameSink count = [&](Session&, int, const gpu::Texture&) {
     ++drawn;
     return Status();
   };
@@ -302,11 +303,12 @@ TEST_F(SessionTest, AChangedShaderOfAFullscreenRowIsReadAgainAndAFaultyOneLeaves
   session.watch = true;
   std::array<int, 3> seen{};
   const auto draw = [&] {
-    const Status status = runFrame(session, nullptr, [&](Session& s, const gpu::Texture& texture) {
-      const Image picture = s.device->download(texture);
-      std::copy_n(picture.pixel<std::uint8_t>(4, 4), 3, seen.begin());
-      return Status();
-    });
+    const Status status =
+        runFrame(session, nullptr, [&](Session& s, int, const gpu::Texture& texture) {
+          const Image picture = s.device->download(texture);
+          std::copy_n(picture.pixel<std::uint8_t>(4, 4), 3, seen.begin());
+          return Status();
+        });
     EXPECT_TRUE(status) << status.error().message;
     return seen;
   };
@@ -345,7 +347,7 @@ TEST_F(SessionTest, AFaultyPipelineRendersNothing) {
   auto session = openSession(settings_);
   ASSERT_TRUE(session) << session.error().message;
   bool drawn = false;
-  const Status status = runFrame(**session, nullptr, [&](Session&, const gpu::Texture&) {
+  const Status status = runFrame(**session, nullptr, [&](Session&, int, const gpu::Texture&) {
     drawn = true;
     return Status();
   });

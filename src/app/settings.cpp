@@ -13,6 +13,11 @@ uvec2 RenderSettings::renderSize() const {
   return {scaled(size.x), scaled(size.y)};
 }
 
+uvec2 RenderSettings::pictureSize() const {
+  return size * uvec2(stereo.layout == StereoLayout::SideBySide ? 2 : 1,
+                      stereo.layout == StereoLayout::TopBottom ? 2 : 1);
+}
+
 Result<uvec2> sizeFromText(const std::string& text) {
   uvec2 size{0};
   const char* end = text.data() + text.size();

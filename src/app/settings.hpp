@@ -13,18 +13,30 @@
 
 namespace lucerna::app {
 
-inline constexpr int kMaxSide = 16384;  // px of an output, and of a rendering
+inline constexpr int kMaxSide = 65536;  // px of an output
+
+enum class StereoLayout { Mono, SideBySide, TopBottom, Anaglyph };
+
+struct StereoSettings {
+  StereoLayout layout = StereoLayout::Mono;
+  float separation = 0.065f;  // m between the eyes
+  float convergence = 3.f;    // m ahead, where both eyes see the same
+
+  int eyes() const { return layout == StereoLayout::Mono ? 1 : 2; }
+};
 
 struct RenderSettings {
   std::string scene;
   std::string pipeline = "deferred";  // shipped name, .js or .json
   std::vector<std::string> sets;      // "Pass.param=value", "script.name=value"
   std::vector<std::string> plugins;   // shared libraries with passes
-  uvec2 size{1280, 720};              // px of the output
+  uvec2 size{1280, 720};              // px of the output, with two eyes of each
   int scale = 100;                    // percent: rendering size / output size
-  std::string camera;                 // "": the scene's first
-  std::string cameraPath;             // file; "": none
-  std::string animation;              // name, index or "none"; "": the scene's choice
+  int tile = 0;                       // px a side, a multiple of kTileGrid; 0: as the driver needs
+  StereoSettings stereo;
+  std::string camera;      // "": the scene's first
+  std::string cameraPath;  // file; "": none
+  std::string animation;   // name, index or "none"; "": the scene's choice
   std::uint64_t frames = 1;
   double time = 0, timeStep = 1.0 / 30;  // s
   std::uint64_t seed = 0;
@@ -36,6 +48,8 @@ struct RenderSettings {
 
   // Pixels of the rendering: `scale` percent of `size`, rounded, at least 1.
   uvec2 renderSize() const;
+  // Pixels of the picture: `size`, twice as wide or high with eyes beside or above each other.
+  uvec2 pictureSize() const;
 };
 
 // "1280x720".

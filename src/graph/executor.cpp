@@ -81,7 +81,6 @@ struct Executor::Impl {
   BoundPort bind(const PortDescription& port, std::size_t version, std::size_t view, bool previous);
   std::size_t useResource(const std::string& name);
   void findResources(const Imports& imports, bool perView);
-  using OnView = std::function<void(int view, const gpu::Texture& output)>;
   Status execute(const FrameInput& input, const OnView& onView);
   Status runViews(const FrameInput& input, PassContext& context, const OnView& onView);
   void runStep(std::size_t index, PassContext& context);
@@ -291,7 +290,7 @@ Status Executor::Impl::runViews(const FrameInput& input, PassContext& context,
     for (std::size_t s = firstPerView; s < steps.size(); ++s) runStep(s, context);
     LUCERNA_TRY_VOID(takeErrors());
     currentView = view;
-    if (onView) onView(context.view, *textureOf(schedule.output, view));
+    if (onView) LUCERNA_TRY_VOID(onView(context.view, *textureOf(schedule.output, view)));
   }
   return {};
 }
@@ -414,8 +413,7 @@ Status Executor::setParam(const std::string& rowName, const std::string& param,
   return {};
 }
 
-Status Executor::execute(const FrameInput& input,
-                         const std::function<void(int, const gpu::Texture&)>& onView) {
+Status Executor::execute(const FrameInput& input, const OnView& onView) {
   return impl_->execute(input, onView);
 }
 

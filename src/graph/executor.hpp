@@ -74,12 +74,13 @@ class Executor {
   // the new ports do not fit) change nothing.
   Status setParam(const std::string& row, const std::string& param, const Value& value);
 
-  // Runs all steps; after each view's steps calls onView(view, output) while its textures are
-  // alive. A shader that does not compile is an error (ErrorKind::Pipeline), as is what a pass
+  // Runs all steps; after each view's steps calls onView(view, output), if any, while its textures
+  // are alive. A shader that does not compile is an error (ErrorKind::Pipeline), as is what a pass
   // reported to the device (a file that cannot be written: ErrorKind::Failed); its view is not
-  // handed over. All resources that the pipeline reads must be given (asserted).
-  Status execute(const FrameInput& input,
-                 const std::function<void(int view, const gpu::Texture& output)>& onView);
+  // handed over. An error of onView's ends the frame, too. All resources that the pipeline reads
+  // must be given (asserted).
+  using OnView = std::function<Status(int view, const gpu::Texture& output)>;
+  Status execute(const FrameInput& input, const OnView& onView);
   // A kept value of the view just drawn, as named in setPipeline; valid inside onView. Null if that
   // is not a texture.
   const gpu::Texture* kept(std::string_view name) const;

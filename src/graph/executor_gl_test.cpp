@@ -260,9 +260,12 @@ class ExecutorGlTest : public gpu::GlTest {
     std::vector<Imports> views(data.size());
     for (std::size_t i = 0; i < views.size(); ++i) views[i].set("number", data[i]);
     std::vector<float> values;
-    const Status status = executor_->execute(
-        {.cut = cut, .sceneChanged = sceneChanged, .views = views},
-        [&](int, const Texture& output) { values.push_back(valueOf(device(), output)); });
+    const Status status =
+        executor_->execute({.cut = cut, .sceneChanged = sceneChanged, .views = views},
+                           [&](int, const Texture& output) {
+                             values.push_back(valueOf(device(), output));
+                             return Status();
+                           });
     EXPECT_TRUE(status) << status.error().message;
     return values;
   }
@@ -295,6 +298,7 @@ TEST_F(ExecutorGlTest, UpdatesAndCopies) {
     kept = {valueOf(device(), output), valueOf(device(), *executor_->kept("C.a")),
             valueOf(device(), *executor_->kept("U1.a"))};
     EXPECT_EQ(executor_->kept("U2.a"), nullptr);
+    return Status();
   });
   ASSERT_TRUE(status);
   EXPECT_THAT(kept, ElementsAre(112, 1, 11));
@@ -390,11 +394,26 @@ TEST_F(ExecutorGlTest, AViewWhoseShaderDoesNotCompileIsNotHandedOver) {
   ASSERT_TRUE(executor_->setPipeline(pipelineOf({"BrokenLater"}, "BrokenLater.a"), {8, 4}));
   const Imports view;
   bool handedOver = false;
-  const Status status =
-      executor_->execute({.views = {&view, 1}}, [&](int, const Texture&) { handedOver = true; });
+  const Status status = executor_->execute({.views = {&view, 1}}, [&](int, const Texture&) {
+    handedOver = true;
+    return Status();
+  });
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
   EXPECT_FALSE(handedOver);
+}
+
+TEST_F(ExecutorGlTest, AnErrorOfWhoeverTakesAViewEndsTheFrame) {
+  set({row("Constant", "C", 1)});
+  const std::vector<Imports> views(3);
+  int taken = 0;
+  const Status status = executor_->execute({.views = views}, [&](int, const Texture&) -> Status {
+    if (++taken == 2) return error(ErrorKind::Cancelled, "enough");
+    return {};
+  });
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Cancelled);
+  EXPECT_EQ(taken, 2);
 }
 
 TEST_F(ExecutorGlTest, TexturesLargerThanTheDriversAreAnError) {

@@ -57,6 +57,9 @@ class FakePass final : public PassType {
   FakePass& history() {
     return last([](auto& p) { p.history = true; });
   }
+  FakePass& halo(int pixels) {
+    return last([&](auto& p) { p.halo = pixels; });
+  }
   FakePass& persistent() {
     return last([](auto& p) { p.persistent = true; });
   }

@@ -9,7 +9,9 @@ struct ViewValues {
   mat4 clipFromView;   // reversed depth, clip z in [0, w]
   mat4 viewFromClip;   // inverted in double precision
   vec4 eyeW;           // perspective: (position, 1); orthographic: (unit vector towards the eye, 0)
-  vec4 size;           // width, height in pixels; 1 / width, 1 / height
+  vec4 size;           // of the whole picture: width, height in pixels; 1 / width, 1 / height
+  vec4 window;         // of what is drawn of it: its lower left corner, width, height in pixels
+  vec4 windowFromClip; // xy: factors, zw: shifts (times w) that put the window's part in [-w, w]
 };
 
 // How one material slot reads its texture.

@@ -33,5 +33,5 @@ void main() {
   tangentW = vec4(mat3(object.worldFromObject) * tangentO.xyz, handedness);
   texCoords = vec4(texCoord0, texCoord1);
   vertexColor = color;
-  gl_Position = view.clipFromView * (view.viewFromWorld * position);
+  gl_Position = windowPosition(view.viewFromWorld * position);
 }

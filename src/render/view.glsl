@@ -3,9 +3,21 @@
 
 layout(std140) uniform ViewBlock { ViewValues view; };
 
-// Normalised device coordinates of a pixel's centre; fragCoord as gl_FragCoord gives it (centres are
-// at .5, row 0 is the bottom).
-vec2 ndcOfPixel(vec2 fragCoord) { return fragCoord * view.size.zw * 2.0 - 1.0; }
+// A pixel's place in the whole picture, of which a tile shows a window: (0, 0) is the lower left corner.
+// fragCoord as gl_FragCoord gives it (centres are at .5, row 0 is the bottom). Whatever depends on the
+// place goes by this, so that tiles join.
+vec2 pictureUv(vec2 fragCoord) { return (fragCoord + view.window.xy) * view.size.zw; }
+
+// Normalised device coordinates of the whole picture at a pixel's centre.
+vec2 ndcOfPixel(vec2 fragCoord) { return pictureUv(fragCoord) * 2.0 - 1.0; }
+
+// What a vertex shader gives to gl_Position: the place in the window that is drawn. Without tiles that is
+// the whole picture, and nothing changes.
+vec4 windowPosition(vec4 positionV) {
+  vec4 clip = view.clipFromView * positionV;
+  clip.xy = clip.xy * view.windowFromClip.xy + clip.w * view.windowFromClip.zw;
+  return clip;
+}
 
 // The view-space position at reversed depth `depth` (1 near, 0 far). Uses the whole inverse
 // projection, so off-axis windows and orthographic views need nothing special. With an infinite far

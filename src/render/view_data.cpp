@@ -7,8 +7,16 @@ namespace {
 
 using dmat4 = glm::dmat4;
 
-blocks::ViewValues viewValues(const scene::View& view, uvec2 size) {
-  const vec2 pixels(size);
+// Normalised device coordinates of the window from those of the picture: factors and shifts. For
+// the whole picture they are exactly 1 and 0.
+vec4 windowFromClip(uvec2 size, const Window& window) {
+  const glm::dvec2 picture(size), part(window.size), origin(window.origin);
+  return {vec2(picture / part), vec2((picture - 2. * origin - part) / part)};
+}
+
+blocks::ViewValues viewValues(const ViewData& data) {
+  const scene::View& view = data.view;
+  const vec2 pixels(data.size);
   const vec4 eyeW = view.orthographic ? vec4(glm::normalize(vec3(view.worldFromView[2])), 0.f)
                                       : vec4(view.positionW(), 1.f);
   return {.viewFromWorld = view.viewFromWorld,
@@ -16,16 +24,36 @@ blocks::ViewValues viewValues(const scene::View& view, uvec2 size) {
           .clipFromView = view.clipFromView,
           .viewFromClip = mat4(glm::inverse(dmat4(view.clipFromView))),
           .eyeW = eyeW,
-          .size = vec4(pixels, 1.f / pixels)};
+          .size = vec4(pixels, 1.f / pixels),
+          .window = vec4(vec2(data.window.origin), vec2(data.window.size)),
+          .windowFromClip = windowFromClip(data.size, data.window)};
 }
 
 }  // namespace
 
+Frustum ViewData::frustumW() const {
+  const vec4 part = windowFromClip(size, window);
+  mat4 toWindow(1.f);
+  toWindow[0].x = part.x;
+  toWindow[1].y = part.y;
+  toWindow[3].x = part.z;
+  toWindow[3].y = part.w;
+  return frustumOf(toWindow * view.clipFromWorld());
+}
+
 void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uvec2 size) {
+  updateView(device, data, view, size, {.origin = ivec2(0), .size = size});
+}
+
+void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uvec2 size,
+                const Window& window) {
   CHECK(size.x > 0 && size.y > 0, "a view of {} x {} pixels", size.x, size.y);
+  CHECK(window.size.x > 0 && window.size.y > 0, "a window of {} x {} pixels", window.size.x,
+        window.size.y);
   data.view = view;
   data.size = size;
-  const blocks::ViewValues values = viewValues(view, size);
+  data.window = window;
+  const blocks::ViewValues values = viewValues(data);
   device.write(data.block, std::as_bytes(std::span(&values, 1)), "ViewBlock");
 }
 

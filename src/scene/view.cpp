@@ -67,4 +67,15 @@ View viewOf(const Scene& scene, const Camera& camera, float aspect) {
   return view;
 }
 
+// A point x to the right at distance d is at p00 x / d in clip space; seen from the eye it must be
+// p00 (x - offset) / d - p20, so that p20 = -p00 offset / d. Orthographic views come out the same.
+View eyeView(const View& view, float offset, float convergence) {
+  CHECK(convergence > 0.f, "eyes that converge {} m ahead", convergence);
+  View eye = view;
+  eye.worldFromView[3] += view.worldFromView[0] * offset;
+  eye.viewFromWorld = glm::inverse(eye.worldFromView);
+  eye.clipFromView[2].x -= view.clipFromView[0].x * offset / convergence;
+  return eye;
+}
+
 }  // namespace lucerna::scene

@@ -22,4 +22,9 @@ struct View {
 // is taken out. near/far of 0 are chosen from the scene's box and the camera's place in it.
 View viewOf(const Scene& scene, const Camera& camera, float aspect);
 
+// The same from an eye `offset` metres to the right of the camera that looks the same way, through
+// an off-axis frustum: what is `convergence` metres ahead stays where it is in the picture, nearer
+// things move against the offset, farther ones with it. Offset 0 gives the same view, bit for bit.
+View eyeView(const View& view, float offset, float convergence);
+
 }  // namespace lucerna::scene

@@ -370,6 +370,42 @@ class CliTest(unittest.TestCase):
         self.assert_ok(run)
         self.assertEqual(run.stdout + run.stderr, "")
 
+    def test_pictures_larger_than_the_drivers_textures_are_drawn_in_tiles(self):
+        limit = json.loads(self.lucerna("doctor", "--json").stdout)["gl"]["max_texture_side"]
+        run = self.lucerna("render", ATRIUM, "--size", f"{limit + 3616}x16", "-o", "wide.png")
+        self.assert_ok(run)
+        self.assertIn("5 tiles of 4096 px", run.stderr)
+        self.assertEqual(png_size(self.folder / "wide.png"), (limit + 3616, 16))
+
+    def test_stereo_pictures_hold_both_eyes(self):
+        for layout, size in (("sbs", (128, 36)), ("tb", (64, 72)), ("anaglyph", (64, 36))):
+            self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--stereo", layout, "-o", f"{layout}.png"))
+            self.assertEqual(png_size(self.folder / f"{layout}.png"), size)
+        for flags in (["--separation", "0.1"], ["--stereo", "sbs", "--convergence", "0"], ["--stereo", "3d"],
+                      ["--tile", "8"]):
+            run = self.lucerna("render", ATRIUM, *SMALL, "-o", "a.png", *flags)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+        self.assertFalse((self.folder / "a.png").exists())
+
+    def test_a_row_writes_a_texture_at_its_place(self):
+        example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "save_image" / "buffers.js"
+        self.assert_ok(self.lucerna("pipeline", "check", example))
+        self.assertEqual(list(self.folder.iterdir()), [])
+        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", example, "--frames", 2, "-o", "p-%d.png"))
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
+                         [f"{name}-000{frame}.{kind}" for name, kind in
+                          (("albedo", "png"), ("depth", "exr"), ("normal", "exr")) for frame in (0, 1)] +
+                         ["p-0.png", "p-1.png"])
+        run = self.lucerna("pipeline", "check", example, "--set", "Depth.file=depth.png")
+        self.assertEqual(run.returncode, 5)
+        self.assertIn("Depth32F", run.stderr + run.stdout)
+        run = self.lucerna("render", ATRIUM, *SMALL, "--pipeline", example, "--set", "Depth.file=/proc/a.exr",
+                           "-o", "q.png")
+        self.assertEqual(run.returncode, 1)
+        self.assertIn("/proc/a.exr: cannot be written", run.stderr)
+        self.assertFalse((self.folder / "q.png").exists())
+
     def interrupted(self, started, *arguments):
         """Runs until `started` matches a file with more than a header, interrupts, and expects exit code
         130; gives stderr."""

@@ -111,6 +111,7 @@ Result<SceneRenderer::Output> SceneRenderer::render(const graph::Pipeline& pipel
     for (const std::string& name : kept)
       if (const gpu::Texture* value = executor_.kept(name))
         output.kept[name] = device().download(*value);
+    return Status();
   }));
   output.profile = executor_.profile();
   return output;

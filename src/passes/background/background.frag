@@ -15,14 +15,14 @@ uniform sampler2D image;
 uniform samplerCube cubeMap;
 #endif
 
-layout(location = 0) in vec2 uv;
 layout(location = 0) out vec4 color;
 
 void main() {
   color = vec4(radiance, 1.0);
 #ifdef IMAGE
   // Pictures start at the top, targets at the bottom.
-  color.rgb *= texture(image, vec2(uv.x, 1.0 - uv.y)).rgb;
+  vec2 place = pictureUv(gl_FragCoord.xy);
+  color.rgb *= texture(image, vec2(place.x, 1.0 - place.y)).rgb;
 #endif
 #ifdef CUBE_MAP
   // GL's cube maps are left-handed (render::GpuScene::backgroundCube).

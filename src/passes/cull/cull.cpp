@@ -55,7 +55,7 @@ void Cull::execute(graph::PassContext& context, const Params& params, const Port
   render::DrawLists& lists = *ports.drawLists;
   visible_.clear();
   if (params.frustum) {
-    gpuScene.bvh.query(ports.view->view.frustumW(), visible_);
+    gpuScene.bvh.query(ports.view->frustumW(), visible_);
     if (!params.sort) std::ranges::sort(visible_);
   } else {
     visible_.resize(scene.objects.size());

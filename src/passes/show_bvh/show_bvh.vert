@@ -12,5 +12,5 @@ void main() {
   corner[(axis + 1) % 3] = edge & 1;
   corner[(axis + 2) % 3] = (edge >> 1) & 1;
   vec3 positionW = mix(boxMin, boxMax, vec3(corner));
-  gl_Position = view.clipFromView * (view.viewFromWorld * vec4(positionW, 1.0));
+  gl_Position = windowPosition(view.viewFromWorld * vec4(positionW, 1.0));
 }
