@@ -1,9 +1,10 @@
 """Renders a scene with Blender's Cycles from a camera that `lucerna render` was given, for a look side
 by side. Direct light only, as the passes do; Blender is not a dependency of Lucerna.
 
-  blender -b --factory-startup -P tools/blender_picture.py -- SCENE CAMERA.json OUT.png [WxH] [SAMPLES] [EXPOSURE]
+  blender -b --factory-startup -P tools/blender_picture.py -- SCENE CAMERA.json OUT.png [WxH] [SAMPLES] [EXPOSURE] [ANIMATION TIME]
 
 CAMERA.json: {"position": [x, y, z], "target": [x, y, z], "fovY": degrees}, y up, metres.
+ANIMATION: the name of the one that plays, or none; TIME: where it stands, in seconds.
 A scene without lights gets the headlight and ambient light that lucerna gives it. Where Cycles knows
 something only as a hint for its viewport, the materials are rewired to mean it: alpha cutoffs and the
 backs of single-sided materials. Ambient light becomes emission, for Cycles would darken it by what is
@@ -46,6 +47,26 @@ def load(path):
         bpy.ops.import_mesh.ply(filepath=path)
     else:
         sys.exit(f"{path}: this script imports glTF, OBJ and PLY")
+
+
+def play(animation, time):
+    """The importer keeps each animation as an NLA track, shifted to the scene's first frame: what plays is
+    its action itself, at the scene's frames a second."""
+    found = False
+    for item in bpy.data.objects:
+        if not item.animation_data:
+            continue
+        item.animation_data.action = None
+        for track in item.animation_data.nla_tracks:
+            track.mute = True
+            if track.name == animation:
+                item.animation_data.action = track.strips[0].action
+                found = True
+    if animation != "none" and not found:
+        sys.exit(f"no animation {animation}")
+    rendering = bpy.context.scene.render
+    frame = time * rendering.fps / rendering.fps_base
+    bpy.context.scene.frame_set(int(frame // 1), subframe=frame % 1)
 
 
 def place_camera(camera):
@@ -192,6 +213,8 @@ def main():
     samples = int(rest[1]) if len(rest) > 1 else 16
     exposure = float(rest[2]) if len(rest) > 2 else 0
     load(os.path.abspath(scene_path))
+    if len(rest) > 4:
+        play(rest[3], float(rest[4]))
     with open(camera_path, encoding="utf-8") as file:
         item = place_camera(json.load(file))
     ambient = light(item)
