@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Every scene of ../shared/scenes (malformed ones aside, which malformed_test covers) is drawn without
-a word of OpenGL, has as many triangles as its index says, or is refused with the sentence stated here.
+a word of OpenGL, has as many triangles as its index says, or is refused with the sentence stated here; the
+city that examples/ makes of some of them stands together.
 
 Usage: scenes_test.py PROGRAM [unittest arguments]
 """
@@ -44,6 +45,8 @@ TRIANGLES = {
     "gltf_features/gpu_instancing/24_gpu_instancing.gltf": 7656770,  # with every instance
 }
 KENNEY_TRIANGLES = 21336  # all 37 models together
+CITY = pathlib.Path(__file__).resolve().parents[2] / "examples" / "city" / "city.json"
+CITY_GROUND_TRIANGLES = 12
 
 REFUSED = {
     "gltf_features/BoxMeshopt/BoxMeshopt.gltf":
@@ -94,6 +97,16 @@ class ScenesTest(unittest.TestCase):
                     self.assertEqual(json.loads(run.stdout)["gl_messages"], 0, run.stderr)
                     self.assertNotIn("OpenGL", run.stderr)
                     self.assertEqual(struct.unpack(">II", picture.read_bytes()[16:24]), (160, 90))
+
+    def test_the_city_of_the_examples_stands_together(self):
+        run = lucerna("info", CITY, "--json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual(json.loads(run.stdout)["triangles"], KENNEY_TRIANGLES + CITY_GROUND_TRIANGLES)
+        with tempfile.TemporaryDirectory(prefix="lucerna-city-") as folder:
+            picture = pathlib.Path(folder) / "city.png"
+            run = lucerna("render", CITY, "-o", picture, "--size", "160x90", "--json")
+            self.assertEqual(run.returncode, 0, run.stderr)
+            self.assertEqual(json.loads(run.stdout)["gl_messages"], 0, run.stderr)
 
     def test_what_is_refused_says_why(self):
         for name, sentence in REFUSED.items():
