@@ -78,15 +78,22 @@ struct PortDescription {
                        // writes "color"; InOut is both
   Direction direction = Direction::In;
   PortType type{};
-  SizeRule size{};  // Out
+  SizeRule size{};  // Out, and InOut that is made
   std::string
-      sameSizeAs{};       // In, InOut: the input whose size this one must have; "" if any will do
-  StandIn standIn{};      // Out
-  bool optional = false;  // In: may stay unbound. Out: not made when nobody reads it
-  bool history = false;   // In: last frame's value of the port it is bound to; unbound after a cut
+      sameSizeAs{};   // In, InOut: the input whose size this one must have; "" if any will do
+  StandIn standIn{};  // Out; InOut repeats its input if it has one
+  // In: may stay unbound. Out: not made when nobody reads it. InOut: made like an output where
+  // there is nothing to update.
+  bool optional = false;
+  bool history = false;  // In: last frame's value of the port it is bound to; unbound after a cut
   bool persistent = false;  // Out: kept between frames (a cache of the pass)
   int halo = 0;             // In: pixels read around the one written; kWholeImage
   std::string help{};
+
+  // Whether the pass may be its first maker.
+  bool makes() const {
+    return direction == Direction::Out || (direction == Direction::InOut && optional);
+  }
 };
 
 enum class Frequency { PerScene, PerViewGroup, PerView };

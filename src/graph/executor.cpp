@@ -222,8 +222,10 @@ void Executor::Impl::bindStep(const Step& step, RunStep& run) {
   const bool perView = step.frequency == Frequency::PerView;
   run.ports.resize(perView ? storage.viewCount() : 1);
   for (std::size_t view = 0; view < run.ports.size(); ++view)
-    for (std::size_t p = 0; p < ports.size(); ++p)
-      run.ports[view].push_back(bind(ports[p], step.versions[p], view, false));
+    for (std::size_t p = 0; p < ports.size(); ++p) {
+      BoundPort& port = run.ports[view].emplace_back(bind(ports[p], step.versions[p], view, false));
+      port.isNew = ports[p].makes() && !row.updates(ports[p]);
+    }
 }
 
 BoundPort Executor::Impl::bind(const PortDescription& port, std::size_t version, std::size_t view,
@@ -331,10 +333,12 @@ void Executor::Impl::runPass(RunStep& run, PassContext& context) {
   std::vector<BoundPort>& ports = run.ports[run.ports.size() == 1 ? 0 : view];
   for (const MovingPort& moving : run.moving) {
     BoundPort& port = ports[moving.port];
+    const bool isNew = port.isNew;
     if (moving.kind == MovingPort::Kind::Resource)
       port.data = resources[moving.index].data;
     else
       port = bind(*port.port, moving.index, view, moving.kind == MovingPort::Kind::Previous);
+    port.isNew = isNew;
   }
   run.instance->execute(context, ports);
 }

@@ -112,6 +112,28 @@ class AddInPlace : Counted {
   }
 };
 
+class AddOrStart : Counted {
+ public:
+  using Params = AmountParams;
+  struct Ports {
+    InOut<Texture> a;
+  };
+  static void describe(PassInfo<Params, Ports>& d) {
+    d.pass("AddOrStart", "Adds to what it updates, or starts at zero.");
+    d.param("amount", &Params::amount);
+    d.update("a", &Ports::a)
+        .texture(Format::R32Float)
+        .sizeOfOutput()
+        .optional()
+        .whenDisabled(vec4(7));
+  }
+  explicit AddOrStart(gpu::Device&) {}
+  void execute(PassContext& context, const Params& params, const Ports& ports) {
+    const float before = ports.a.isNew() ? 0.f : valueOf(context.device, *ports.a);
+    context.device.clear(*ports.a, vec4(before + params.amount));
+  }
+};
+
 class Sum : Counted {
  public:
   struct Params {};
@@ -230,6 +252,7 @@ class ExecutorGlTest : public gpu::GlTest {
     registry_.add<Once>();
     registry_.add<Add>();
     registry_.add<AddInPlace>();
+    registry_.add<AddOrStart>();
     registry_.add<Sum>();
     registry_.add<Accumulate>();
     registry_.add<MakeNumber>();
@@ -302,6 +325,18 @@ TEST_F(ExecutorGlTest, UpdatesAndCopies) {
   });
   ASSERT_TRUE(status);
   EXPECT_THAT(kept, ElementsAre(112, 1, 11));
+}
+
+TEST_F(ExecutorGlTest, AnOptionalUpdateStartsWhereThereIsNothing) {
+  set({row("AddOrStart", "S", 10), row("AddInPlace", "U", 100)});
+  EXPECT_THAT(frame(), ElementsAre(110));
+  EXPECT_THAT(frame(), ElementsAre(110)) << "nothing is left from the last frame";
+  set({row("Constant", "C", 1), row("AddOrStart", "S", 10)});
+  EXPECT_THAT(frame(), ElementsAre(11));
+  set({row("AddOrStart", "S1", 10), row("AddOrStart", "S2", 20)});
+  EXPECT_THAT(frame(), ElementsAre(30));
+  set({row("AddOrStart", "S", 10).off(), row("AddInPlace", "U", 100)});
+  EXPECT_THAT(frame(), ElementsAre(107));
 }
 
 TEST_F(ExecutorGlTest, DisabledRowsGiveTheirStandIn) {

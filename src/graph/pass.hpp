@@ -31,6 +31,7 @@ struct BoundPort {
   const PortDescription* port = nullptr;
   gpu::Texture* texture = nullptr;
   void* data = nullptr;
+  bool isNew = false;  // an update without input: this pass makes the value
 };
 
 class PassInstance {

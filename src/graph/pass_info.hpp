@@ -106,6 +106,7 @@ class PortBuilder {
   PortBuilder& sameSizeAs(std::string input);  // In, InOut: another size is a fault
   PortBuilder& whenDisabled(vec4 fill);
   PortBuilder& passesThrough(std::string input);  // when disabled
+  // PortDescription::optional says what it means for each direction.
   PortBuilder& optional() {
     d_->optional = true;
     return *this;

@@ -127,10 +127,15 @@ PortBuilder PassInfo<Params, Ports>::port(std::string name, Direction direction,
   d.direction = direction;
   d.type = detail::portTypeOf<T>();
   binders_.push_back([member](Ports& ports, const BoundPort& bound) {
+    T* pointer = nullptr;
     if constexpr (std::is_same_v<T, gpu::Texture>)
-      (ports.*member).bind(bound.texture);
+      pointer = bound.texture;
     else
-      (ports.*member).bind(static_cast<T*>(bound.data));
+      pointer = static_cast<T*>(bound.data);
+    if constexpr (std::is_same_v<Member, InOut<T> Ports::*>)
+      (ports.*member).bind(pointer, bound.isNew);
+    else
+      (ports.*member).bind(pointer);
   });
   return PortBuilder(d);
 }

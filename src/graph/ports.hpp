@@ -38,6 +38,18 @@ class Out {
 };
 
 template <typename T>
-class InOut : public Out<T> {};
+class InOut : public Out<T> {
+ public:
+  // There was nothing to update (only where the port is optional): the content is undefined, and
+  // this pass makes it.
+  bool isNew() const { return isNew_; }
+  void bind(T* pointer, bool isNew = false) {
+    Out<T>::bind(pointer);
+    isNew_ = isNew;
+  }
+
+ private:
+  bool isNew_ = false;
+};
 
 }  // namespace lucerna::graph

@@ -86,14 +86,10 @@ class Checker {
 
   // What a pass's author must get right.
   void checkDeclaration(const PassDescription& description) {
-    for (const PortDescription& port : description.ports) {
-      if (port.direction == Direction::Out && port.type.texture)
+    for (const PortDescription& port : description.ports)
+      if (port.makes() && port.type.texture)
         CHECK(port.type.texture->formats.size() == 1, "{}: output '{}' must name its one format",
               description.type, port.name);
-      CHECK(port.direction != Direction::InOut || !port.optional,
-            "{}: '{}' cannot be optional: an update needs what it updates", description.type,
-            port.name);
-    }
   }
 
   void checkReads(const PassDescription& description) {
@@ -124,7 +120,7 @@ class Checker {
       const TextureSpec& spec = *port.type.texture;
       if (spec.formats.empty() || gpu::info(spec.formats[0]).kind != FormatClass::Depth)
         ++colorTargets;
-      if (port.direction == Direction::Out) checkOutput(port, spec);
+      if (port.makes()) checkOutput(port, spec);
     }
     if (colorTargets > capabilities_.maxColorTargets)
       report(FaultKind::MissingFeature, place_,

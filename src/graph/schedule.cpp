@@ -128,10 +128,10 @@ class Scheduler {
     const ResolvedRow& row = plan_.rows[rows_[order_]];
     Step step{.name = row.name, .row = rows_[order_], .frequency = row.description.frequency};
     for (const PortDescription& port : row.description.ports) {
-      if (port.direction == Direction::Out)
-        step.versions.push_back(makeOutput(row, port));
-      else if (port.direction == Direction::InOut)
+      if (row.updates(port))
         step.versions.push_back(makeUpdate(row, port));
+      else if (port.makes())
+        step.versions.push_back(makeOutput(row, port));
       else
         step.versions.push_back(kNoVersion);  // known only when all outputs are: see bindInputs
     }
@@ -154,7 +154,8 @@ class Scheduler {
 
   std::size_t makeOutput(const ResolvedRow& row, const PortDescription& port) {
     const Key key{Source::Kind::Output, row.row, port.name};
-    if (port.optional && !reads_[key].ever) return kNoVersion;
+    const bool unread = !reads_[key].ever;
+    if (port.direction == Direction::Out && port.optional && unread) return kNoVersion;
     const std::size_t version = addVersion(versionOf(row, port, port.type));
     versions_[key] = version;
     chains_.push_back({version});
@@ -222,8 +223,7 @@ class Scheduler {
           read(step.versions[i], port.history ? end : s);
         else
           write(step.versions[i], s);
-        if (port.direction == Direction::InOut)
-          read(versions_.at(keyOf(row.input(port.name)->source)), s);
+        if (row.updates(port)) read(versions_.at(keyOf(row.input(port.name)->source)), s);
       }
     }
     if (schedule_.output != kNoVersion) versions[schedule_.output].lastStep = end;

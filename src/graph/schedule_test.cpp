@@ -19,6 +19,7 @@ class Schedules : public testing::Test {
     add(registry_,
         FakePass("Filter").in("color").out("color", Format::Rgba16Float).repeats("color"));
     add(registry_, FakePass("Update").inout("color"));
+    add(registry_, FakePass("Start").inout("color", Format::Rgba16Float).optional().scaled(0.5f));
     add(registry_, FakePass("Mix").in("color").in("other").out("color", Format::Rgba16Float));
     add(registry_, FakePass("Trail").inout("color").in("past").history());
     add(registry_, FakePass("Mask").out("mask", Format::R8Unorm).fill(1).scaled(0.5f));
@@ -79,6 +80,16 @@ TEST_F(Schedules, UpdatesStayInPlace) {
   EXPECT_EQ(s.textures.size(), 1u);
   EXPECT_EQ(s.versions.size(), 3u);
   EXPECT_EQ(s.output, 2u);
+}
+
+TEST_F(Schedules, AnOptionalUpdateMakesWhatItDoesNotFind) {
+  const Schedule made = of({"Start", "Update"});
+  EXPECT_THAT(steps(made), ElementsAre("Start", "Update"));
+  EXPECT_EQ(version(made, "Start.color").texture.width, 320);
+  EXPECT_EQ(made.textures.size(), 1u);
+  const Schedule updated = of({"Make", "Start"});
+  EXPECT_EQ(version(updated, "Start.color").texture.width, 640) << "what it updates has its size";
+  EXPECT_EQ(updated.textures.size(), 1u);
 }
 
 //    Make -> Update ---+

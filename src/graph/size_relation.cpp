@@ -55,7 +55,7 @@ SizeRelation SizeRelations::ofOutput(std::size_t row, const std::string& port) {
                                   [&](const ResolvedRow& r) { return r.row == row; });
   CHECK(found != plan_.rows.end(), "the size of row {} is asked for, which does not run", row);
   const PortDescription* out = found->description.output(port);
-  const bool isUpdate = out->direction == Direction::InOut;
+  const bool isUpdate = found->updates(*out);
   SizeRelation size = ofRule(out->size);
   if (isUpdate || out->size.kind == SizeRule::Kind::Port) {
     const std::string& like = isUpdate ? out->name : out->size.port;

@@ -366,6 +366,11 @@ const ResolvedInput* ResolvedRow::input(std::string_view port) const {
   return nullptr;
 }
 
+bool ResolvedRow::updates(const PortDescription& port) const {
+  return port.direction == Direction::InOut &&
+         input(port.name)->source.kind != Source::Kind::Unbound;
+}
+
 Validation validate(const Pipeline& pipeline, const Registry& registry,
                     const gpu::Capabilities& capabilities, const std::vector<std::string>& kept) {
   return Validator(pipeline, registry, capabilities).run(kept);

@@ -44,6 +44,8 @@ struct ResolvedRow {
   bool culled = false;
 
   const ResolvedInput* input(std::string_view port) const;
+  // Whether the port is an update that has something to update.
+  bool updates(const PortDescription& port) const;
 };
 
 // The wiring of a valid pipeline: the enabled rows in list order.

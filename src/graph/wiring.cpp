@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
+#include "graph/row_check.hpp"
 
 namespace lucerna::graph {
 namespace {
@@ -86,6 +87,9 @@ Binding Wiring::byName(std::size_t row, const PortDescription& port) {
     if (!out) continue;
     if (pipeline_.passes[i].enabled) {
       Binding binding = bound(output(i, *out));
+      // Who may make the value does so where the one at hand is of another kind.
+      const bool mayMake = port.direction == Direction::InOut && port.optional;
+      if (mayMake && typeProblem(port, binding.source, port.name)) return {};
       if (!disabled.empty())
         binding.warning = producerChange(disabled.front(), port, binding.source);
       return binding;
@@ -144,7 +148,7 @@ Problem Wiring::missing(std::size_t row, const PortDescription& port,
     if (type != pipeline_.passes[row].type) {
       const PassDescription description = registry_.find(type)->describe({});
       const PortDescription* out = description.output(port.name);
-      if (out && out->direction == Direction::Out) makers.push_back(type);
+      if (out && out->makes()) makers.push_back(type);
     }
   return {
       .kind = FaultKind::MissingInput,
@@ -167,15 +171,19 @@ Source Wiring::output(std::size_t row, const PortDescription& port) {
 
 // An update has the type of what it updates.
 PortType Wiring::typeOf(std::size_t row, const PortDescription& output) {
-  if (output.direction != Direction::InOut) return output.type;
+  return updatesSomething(row, output) ? input(row, output).source.type : output.type;
+}
+
+bool Wiring::updatesSomething(std::size_t row, const PortDescription& output) {
+  if (output.direction != Direction::InOut) return false;
   const Binding& updated = input(row, output);
-  return updated.problem || updated.source.kind == Source::Kind::Unbound ? output.type
-                                                                         : updated.source.type;
+  return !updated.problem && updated.source.kind != Source::Kind::Unbound;
 }
 
 std::optional<Source> Wiring::standIn(std::size_t row, const PortDescription& output) {
   const bool repeatsItself =
-      output.direction == Direction::InOut && output.standIn.kind == StandIn::Kind::None;
+      output.direction == Direction::InOut &&
+      (output.standIn.kind == StandIn::Kind::None || updatesSomething(row, output));
   if (repeatsItself || output.standIn.kind == StandIn::Kind::PassThrough) {
     const std::string& name = repeatsItself ? output.name : output.standIn.input;
     const PortDescription* repeated = descriptions_[row]->input(name);
@@ -197,7 +205,7 @@ Source Wiring::fill(std::size_t row, const PortDescription& output, vec4 value) 
   source.fill = value;
   source.type = typeOf(row, output);
   source.size = output.size;
-  if (output.direction == Direction::InOut)
+  if (updatesSomething(row, output))
     source.size = {.kind = SizeRule::Kind::Port, .port = output.name};
   if (source.size.kind != SizeRule::Kind::Port) return source;
   const float scale = source.size.scale;

@@ -49,6 +49,8 @@ class Wiring {
   Problem missing(std::size_t row, const PortDescription& port,
                   const std::vector<std::size_t>& disabled);
   Source output(std::size_t row, const PortDescription& port);
+  // Whether an output is an update that found what to update.
+  bool updatesSomething(std::size_t row, const PortDescription& output);
   PortType typeOf(std::size_t row, const PortDescription& output);
   std::optional<Source> standIn(std::size_t row, const PortDescription& output);
   Source fill(std::size_t row, const PortDescription& output, vec4 value);

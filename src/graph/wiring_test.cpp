@@ -22,6 +22,8 @@ class Wiring : public testing::Test {
     add(registry_, FakePass("White").out("a", Format::R8Unorm).fill(1));
     add(registry_, FakePass("Bare").out("a", Format::R8Unorm));
     add(registry_, FakePass("Update").inout("a"));
+    add(registry_, FakePass("Start").inout("a", Format::R8Unorm).optional().fill(1));
+    add(registry_, FakePass("Float").out("a", Format::R32Float));
     add(registry_, FakePass("Show").in("a").out("color", Format::Rgba8Unorm));
     add(registry_, FakePass("ShowIfAny").in("a").optional().out("color", Format::Rgba8Unorm));
     add(registry_,
@@ -30,11 +32,15 @@ class Wiring : public testing::Test {
   }
 
   // What the last row's first input is bound to, as "Row.port", "fill Row.port", "resource" or "-".
-  std::string source(std::vector<FakeRow> rows) {
+  std::string source(std::vector<FakeRow> rows) { return source(std::move(rows), 0); }
+  // The same of the row before the last.
+  std::string updated(std::vector<FakeRow> rows) { return source(std::move(rows), 1); }
+  std::string source(std::vector<FakeRow> rows, std::size_t fromBack) {
     const Pipeline pipeline = pipelineOf(std::move(rows));
     const Validation result = validate(pipeline, registry_, gpu::Capabilities::baseline());
     if (!result.ok()) return result.text();
-    const Source& source = result.plan->rows.back().inputs.at(0).source;
+    const auto& resolved = result.plan->rows;
+    const Source& source = resolved.at(resolved.size() - 1 - fromBack).inputs.at(0).source;
     switch (source.kind) {
       case Source::Kind::Unbound:
         return "-";
@@ -72,6 +78,18 @@ TEST_F(Wiring, NearestEarlierEnabledRow) {
   EXPECT_EQ(source({make("A"), make("B").off(), "Show"}), "A.a");
   EXPECT_EQ(source({make("A"), "Update", "Show"}), "Update.a");
   EXPECT_EQ(source({make("A"), "Filter", FakeRow("Filter").named("Again"), "Show"}), "Again.a");
+}
+
+TEST_F(Wiring, AnOptionalUpdateMakesTheValueWhereThereIsNone) {
+  EXPECT_EQ(source({make("A"), "Start", "Show"}), "Start.a");
+  EXPECT_EQ(updated({make("A"), "Start", "Show"}), "A.a");
+  EXPECT_EQ(updated({"Start", "Show"}), "-");
+  EXPECT_EQ(updated({"Float", "Start", "Show"}), "-") << "it cannot update another format";
+  EXPECT_EQ(updated({FakeRow("White").off(), "Start", "Show"}), "fill White.a");
+  EXPECT_EQ(source({"Start", "Update", "Show"}), "Update.a");
+  // Disabled, it repeats what it would update; else its own stand-in counts.
+  EXPECT_EQ(source({make("A"), FakeRow("Start").off(), "Show"}), "A.a");
+  EXPECT_EQ(source({FakeRow("Start").off(), "Show"}), "fill Start.a");
 }
 
 TEST_F(Wiring, DisabledRowThatPassesThrough) {
