@@ -83,7 +83,7 @@ std::string JsonFault::text() const {
 void JsonFaults::add(JsonFault fault) {
   if (full())
     ++uncounted_;
-  else
+  else if (std::ranges::find(list_, fault) == list_.end())  // a value may be read more than once
     list_.push_back(std::move(fault));
 }
 
@@ -156,6 +156,10 @@ void JsonValue::format(const std::string& format) const {
 
 bool JsonValue::isNumber() const {
   return node_->as<std::int64_t>() || node_->as<double>();
+}
+
+bool JsonValue::isList() const {
+  return node_->as<JsonNode::List>() != nullptr;
 }
 
 JsonValue JsonValue::child(const JsonNode& node, std::string_view step) const {
@@ -245,10 +249,6 @@ bool JsonValue::choice(std::span<const std::string> choices, std::size_t& out) c
 
 bool JsonValue::read(const char* key, float& out, NumberRange range) const {
   return has(key) && at(key).number(out, range);
-}
-
-bool JsonValue::read(const char* key, vec3& out, NumberRange range) const {
-  return has(key) && at(key).numbers({glm::value_ptr(out), 3}, range);
 }
 
 bool JsonValue::read(const char* key, bool& out) const {

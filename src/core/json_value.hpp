@@ -21,7 +21,8 @@ namespace lucerna {
 struct JsonFault {
   std::string place;          // "lamp.json:3: /power"
   std::string found, wanted;  // without `wanted`, `found` is the whole complaint
-  std::string text() const;   // "lamp.json:3: /power: found -1, wanted a number of at least 0"
+  bool operator==(const JsonFault&) const = default;
+  std::string text() const;  // "lamp.json:3: /power: found -1, wanted a number of at least 0"
 };
 
 class JsonFaults {
@@ -74,13 +75,17 @@ class JsonValue {
   // Reports a "lucerna" that is not `format` ("scene/1").
   void format(const std::string& format) const;
   bool isNumber() const;
+  bool isList() const;
   bool has(std::string_view key) const { return node_->find(key) != nullptr; }
   JsonValue at(std::string_view key) const;                        // must be there
   std::vector<std::pair<std::string, JsonValue>> members() const;  // reports if this is no object
   std::vector<JsonValue> elements() const;  // reports and is empty if this is no list
 
   bool read(const char* key, float& out, NumberRange range = kAnyNumber) const;
-  bool read(const char* key, vec3& out, NumberRange range = kAnyNumber) const;
+  template <int N>
+  bool read(const char* key, glm::vec<N, float>& out, NumberRange range = kAnyNumber) const {
+    return has(key) && at(key).numbers({glm::value_ptr(out), N}, range);
+  }
   bool read(const char* key, bool& out) const;
   bool read(const char* key, std::string& out) const;
   bool readInteger(const char* key, int& out, int min, int max) const;

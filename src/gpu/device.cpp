@@ -176,7 +176,9 @@ std::vector<Error> Device::takeErrors() {
   return std::exchange(impl_->errors, {});
 }
 void Device::reportError(Error error) {
-  impl_->errors.push_back(std::move(error));
+  // Once in each batch is enough.
+  if (std::ranges::find(impl_->errors, error.message, &Error::message) == impl_->errors.end())
+    impl_->errors.push_back(std::move(error));
 }
 std::vector<std::string> Device::takeDebugMessages() {
   return std::exchange(impl_->debugMessages, {});

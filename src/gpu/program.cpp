@@ -94,66 +94,52 @@ std::string name(GLuint program, GLenum interface, GLuint index) {
   return result;
 }
 
-struct TypeName {
+enum class Opaque { No, Sampler, Image };
+
+struct Type {
   GLenum type;
-  const char* name;
+  const char* name;  // in GLSL
+  Opaque opaque = Opaque::No;
 };
-constexpr TypeName kTypeNames[] = {
+constexpr Type kTypes[] = {
     {GL_FLOAT, "float"},
     {GL_FLOAT_VEC2, "vec2"},
     {GL_FLOAT_VEC3, "vec3"},
     {GL_FLOAT_VEC4, "vec4"},
     {GL_INT, "int"},
     {GL_BOOL, "bool"},
-    {GL_SAMPLER_2D, "sampler2D"},
-    {GL_SAMPLER_2D_ARRAY, "sampler2DArray"},
-    {GL_SAMPLER_CUBE, "samplerCube"},
-    {GL_SAMPLER_2D_MULTISAMPLE, "sampler2DMS"},
-    {GL_INT_SAMPLER_2D, "isampler2D"},
-    {GL_UNSIGNED_INT_SAMPLER_2D, "usampler2D"},
+    {GL_SAMPLER_2D, "sampler2D", Opaque::Sampler},
+    {GL_SAMPLER_2D_SHADOW, "sampler2DShadow", Opaque::Sampler},
+    {GL_SAMPLER_2D_ARRAY, "sampler2DArray", Opaque::Sampler},
+    {GL_SAMPLER_2D_ARRAY_SHADOW, "sampler2DArrayShadow", Opaque::Sampler},
+    {GL_SAMPLER_CUBE, "samplerCube", Opaque::Sampler},
+    {GL_SAMPLER_CUBE_SHADOW, "samplerCubeShadow", Opaque::Sampler},
+    {GL_SAMPLER_CUBE_MAP_ARRAY, "samplerCubeArray", Opaque::Sampler},
+    {GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW, "samplerCubeArrayShadow", Opaque::Sampler},
+    {GL_SAMPLER_2D_MULTISAMPLE, "sampler2DMS", Opaque::Sampler},
+    {GL_INT_SAMPLER_2D, "isampler2D", Opaque::Sampler},
+    {GL_INT_SAMPLER_2D_ARRAY, "isampler2DArray", Opaque::Sampler},
+    {GL_INT_SAMPLER_CUBE, "isamplerCube", Opaque::Sampler},
+    {GL_INT_SAMPLER_2D_MULTISAMPLE, "isampler2DMS", Opaque::Sampler},
+    {GL_UNSIGNED_INT_SAMPLER_2D, "usampler2D", Opaque::Sampler},
+    {GL_UNSIGNED_INT_SAMPLER_2D_ARRAY, "usampler2DArray", Opaque::Sampler},
+    {GL_UNSIGNED_INT_SAMPLER_CUBE, "usamplerCube", Opaque::Sampler},
+    {GL_UNSIGNED_INT_SAMPLER_CUBE_MAP_ARRAY, "usamplerCubeArray", Opaque::Sampler},
+    {GL_UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE, "usampler2DMS", Opaque::Sampler},
+    {GL_IMAGE_2D, "image2D", Opaque::Image},
+    {GL_IMAGE_2D_ARRAY, "image2DArray", Opaque::Image},
+    {GL_IMAGE_CUBE, "imageCube", Opaque::Image},
+    {GL_INT_IMAGE_2D, "iimage2D", Opaque::Image},
+    {GL_INT_IMAGE_2D_ARRAY, "iimage2DArray", Opaque::Image},
+    {GL_UNSIGNED_INT_IMAGE_2D, "uimage2D", Opaque::Image},
+    {GL_UNSIGNED_INT_IMAGE_2D_ARRAY, "uimage2DArray", Opaque::Image},
+    {GL_UNSIGNED_INT_IMAGE_CUBE, "uimageCube", Opaque::Image},
 };
 
-std::string typeName(GLenum type) {
-  for (const TypeName& known : kTypeNames)
-    if (known.type == type) return known.name;
-  return "other";
-}
-
-enum class Opaque { No, Sampler, Image };
-
-Opaque opaqueKind(GLenum type) {
-  switch (type) {
-    case GL_SAMPLER_2D:
-    case GL_SAMPLER_2D_SHADOW:
-    case GL_SAMPLER_2D_ARRAY:
-    case GL_SAMPLER_2D_ARRAY_SHADOW:
-    case GL_SAMPLER_CUBE:
-    case GL_SAMPLER_CUBE_SHADOW:
-    case GL_SAMPLER_CUBE_MAP_ARRAY:
-    case GL_SAMPLER_CUBE_MAP_ARRAY_SHADOW:
-    case GL_SAMPLER_2D_MULTISAMPLE:
-    case GL_INT_SAMPLER_2D:
-    case GL_INT_SAMPLER_2D_ARRAY:
-    case GL_INT_SAMPLER_CUBE:
-    case GL_INT_SAMPLER_2D_MULTISAMPLE:
-    case GL_UNSIGNED_INT_SAMPLER_2D:
-    case GL_UNSIGNED_INT_SAMPLER_2D_ARRAY:
-    case GL_UNSIGNED_INT_SAMPLER_CUBE:
-    case GL_UNSIGNED_INT_SAMPLER_CUBE_MAP_ARRAY:
-    case GL_UNSIGNED_INT_SAMPLER_2D_MULTISAMPLE:
-      return Opaque::Sampler;
-    case GL_IMAGE_2D:
-    case GL_IMAGE_2D_ARRAY:
-    case GL_IMAGE_CUBE:
-    case GL_INT_IMAGE_2D:
-    case GL_INT_IMAGE_2D_ARRAY:
-    case GL_UNSIGNED_INT_IMAGE_2D:
-    case GL_UNSIGNED_INT_IMAGE_2D_ARRAY:
-    case GL_UNSIGNED_INT_IMAGE_CUBE:
-      return Opaque::Image;
-    default:
-      return Opaque::No;
-  }
+const Type& typeOf(GLenum type) {
+  static constexpr Type kOther{GL_NONE, "other"};
+  const auto* const known = std::ranges::find(kTypes, type, &Type::type);
+  return known == std::end(kTypes) ? kOther : *known;
 }
 
 }  // namespace
@@ -174,7 +160,7 @@ struct Reflector {
       const bool array = key.ends_with("[0]");
       if (array) key.resize(key.size() - 3);
       const Uniform uniform{values[0], static_cast<GLenum>(values[1]), values[2]};
-      switch (opaqueKind(uniform.type)) {
+      switch (typeOf(uniform.type).opaque) {
         case Opaque::No:
           result.uniforms[key] = uniform;
           break;
@@ -228,9 +214,9 @@ Program::~Program() {
 std::vector<ProgramInput> Program::inputs() const {
   std::vector<ProgramInput> inputs;
   for (const auto& [name, uniform] : reflection_->uniforms)
-    inputs.push_back({name, uniform.count == 1 ? typeName(uniform.type) : "other"});
+    inputs.push_back({name, uniform.count == 1 ? typeOf(uniform.type).name : "other"});
   for (const auto* slots : {&reflection_->samplers, &reflection_->images})
-    for (const auto& slot : *slots) inputs.push_back({slot.name, typeName(slot.type)});
+    for (const auto& slot : *slots) inputs.push_back({slot.name, typeOf(slot.type).name});
   for (const auto* blocks : {&reflection_->uniformBlocks, &reflection_->storageBlocks})
     for (const auto& block : *blocks) inputs.push_back({block.name, "block"});
   return inputs;
@@ -360,9 +346,7 @@ ProgramPtr Device::program(const ProgramDesc& desc) {
     entry->device_ = this;
     if (const auto linked = link(*entry)) take(*entry, *linked);
   } else if (const auto& fault = entry->reflection_->fault) {
-    // Who asks for it only now must hear of it too, but once in each batch of errors is enough.
-    if (std::ranges::find(impl_->errors, fault->message, &Error::message) == impl_->errors.end())
-      impl_->errors.push_back(*fault);
+    reportError(*fault);  // who asks for it only now must hear of it too
   }
   return entry;
 }
