@@ -5,6 +5,7 @@ pipeline({name: "bvh", output: "ToneMap.color"});
 pass("Cull");
 pass("GBuffer");
 pass("Lighting");
+pass("CustomShaders");
 pass("Background");
 pass("ShowBvh");
 pass("ToneMap");

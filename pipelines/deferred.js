@@ -1,10 +1,11 @@
-// Deferred shading: one G-buffer, lit in full-screen passes; transparent surfaces are drawn forward.
+// Deferred shading: one G-buffer, lit in full-screen passes; custom shaders and glass are drawn forward.
 // The default of `lucerna render`.
 pipeline({name: "deferred", output: "ToneMap.color"});
 
 pass("Cull");
 pass("GBuffer");
 pass("Lighting");
+pass("CustomShaders");
 pass("Background");
 pass("Transparency");
 pass("ToneMap");

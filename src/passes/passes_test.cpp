@@ -8,7 +8,6 @@
 namespace lucerna::passes {
 namespace {
 
-using graph::Direction;
 using Type = graph::ParamType;
 
 const graph::Registry& registry() {
@@ -33,8 +32,8 @@ graph::Validation validated(const graph::Pipeline& pipeline) {
   return graph::validate(pipeline, registry(), gpu::Capabilities::baseline());
 }
 
-const std::vector<std::string> kDeferred = {"Cull",       "GBuffer",      "Lighting",
-                                            "Background", "Transparency", "ToneMap"};
+const std::vector<std::string> kDeferred = {
+    "Cull", "GBuffer", "Lighting", "CustomShaders", "Background", "Transparency", "ToneMap"};
 const std::vector<std::string> kForward = {"Cull", "Forward", "Background", "Transparency",
                                            "ToneMap"};
 
@@ -76,7 +75,7 @@ TEST_P(EachPass, DocumentsItsPortsAndStatesOneFormatForEachTextureItMakes) {
   for (const graph::PortDescription& port : description_.ports) {
     SCOPED_TRACE(port.name);
     EXPECT_FALSE(port.help.empty());
-    if (port.direction == Direction::Out && port.type.texture) {
+    if (port.makes() && port.type.texture) {
       EXPECT_EQ(port.type.texture->formats.size(), 1u);
       EXPECT_NE(port.standIn.kind, graph::StandIn::Kind::None)
           << "a disabled pass must leave something to its readers";
@@ -119,6 +118,15 @@ TEST(ShippedRows, ThatDrawOverAPictureWantItsDepthBufferAsLarge) {
   EXPECT_TRUE(validated(pipeline).ok());
   pipeline.passes[3].params["outputScale"] = 0.5;
   EXPECT_THAT(validated(pipeline).text(), ::testing::HasSubstr("SizeMismatch"));
+}
+
+TEST(ShippedRows, DrawCustomShadersBeforeOrAfterTheLighting) {
+  for (const auto& types : {std::vector<std::string>{"CustomShaders", "Lighting"},
+                            std::vector<std::string>{"Lighting", "CustomShaders"}}) {
+    const graph::Validation validation =
+        validated(rows({"Cull", "GBuffer", types[0], types[1], "Background", "ToneMap"}));
+    EXPECT_EQ(validation.text(), "");
+  }
 }
 
 TEST(ShippedRows, ShowTheHierarchyBeforeOrAfterToneMapping) {

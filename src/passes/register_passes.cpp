@@ -2,6 +2,7 @@
 
 #include "passes/background/background.hpp"
 #include "passes/cull/cull.hpp"
+#include "passes/custom_shaders/custom_shaders.hpp"
 #include "passes/forward/forward.hpp"
 #include "passes/fullscreen/fullscreen.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
@@ -31,6 +32,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<Cull>();
   registry.add<GBuffer>();
   registry.add<Lighting>();
+  registry.add<CustomShaders>();
   registry.add<Forward>();
   registry.add<Background>();
   registry.add<Transparency>();

@@ -20,20 +20,31 @@ struct TextureUse {
   vec4 offset;         // xy: added to it; z: texture coordinate set, 0 or 1; w: 1 if the slot is used
 };
 
+// The planes of generated texture coordinates (render/texture_environment.glsl).
+struct TextureGeneration {
+  vec4 planeS;
+  vec4 planeT;
+};
+
 // Uniform block MaterialBlock (render/scene.glsl).
 struct MaterialValues {
   vec4 albedo;         // linear; a: opacity
   vec4 emissive;       // rgb: linear radiance; w: normal map scale
   vec4 transmission;   // rgb: colour let through; w: alpha cutoff
   vec4 specular;       // rgb: specular, linear; w: Phong exponent
-  vec4 surface;        // metallic, roughness, occlusion strength, material type (render/gbuffer.glsl)
+  vec4 surface;        // metallic, roughness, occlusion strength, type of its model (render/surface.glsl)
   TextureUse albedoUse;
   TextureUse emissiveUse;
   TextureUse normalUse;
   TextureUse metallicRoughnessUse;
   TextureUse occlusionUse;
   TextureUse specularUse;
-  vec4 unused[15];     // to the alignment of blocks, 256 bytes
+  vec4 codes;          // 1: has a shader of its own; of texture_environment.glsl: combine, coordinates of the
+                       // albedo and of the emissive texture
+  vec4 blendColor;     // rgb: linear, of the blend combine
+  TextureGeneration albedoGeneration;
+  TextureGeneration emissiveGeneration;
+  vec4 unused[9];     // to the alignment of blocks, twice 256 bytes
 };
 
 // Element of the storage block ObjectBlock (render/scene.glsl).

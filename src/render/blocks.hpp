@@ -18,6 +18,7 @@ static_assert(offsetof(ViewValues, eyeW) == 256);
 static_assert(sizeof(TextureUse) == 32);
 static_assert(sizeof(MaterialValues) == 512);
 static_assert(offsetof(MaterialValues, albedoUse) == 80);
+static_assert(offsetof(MaterialValues, albedoGeneration) == 304);
 static_assert(sizeof(ObjectValues) == 64 + 4 * 16);
 static_assert(sizeof(LightValues) == 5 * 16);
 

@@ -17,15 +17,28 @@ void bindSlot(gpu::Rendering& rendering, const GpuScene& gpuScene, const char* n
   rendering.texture(name, textureOf(gpuScene, slot, data), sampler);
 }
 
+// A slot that may hold a flat picture or a cube map; the sampler of the other kind reads white.
+void bindSlot(gpu::Rendering& rendering, const GpuScene& gpuScene, const char* name,
+              const char* cubeName, const scene::TextureSlot& slot) {
+  const bool cube = slot.used() && gpuScene.scene->textures[slot.texture].isCube();
+  bindSlot(rendering, gpuScene, name, cube ? scene::TextureSlot{} : slot, false);
+  if (cube)
+    bindSlot(rendering, gpuScene, cubeName, slot, false);
+  else
+    rendering.texture(cubeName, gpuScene.whiteCube, gpu::kNearest);
+}
+
 void bindTextures(gpu::Rendering& rendering, const GpuScene& gpuScene,
                   const scene::Material& material) {
-  bindSlot(rendering, gpuScene, "albedoTexture", material.albedoTexture, false);
-  bindSlot(rendering, gpuScene, "emissiveTexture", material.emissiveTexture, false);
+  bindSlot(rendering, gpuScene, "albedoTexture", "albedoCube", material.albedoTexture);
+  bindSlot(rendering, gpuScene, "emissiveTexture", "emissiveCube", material.emissiveTexture);
   bindSlot(rendering, gpuScene, "normalTexture", material.normalTexture, true);
   bindSlot(rendering, gpuScene, "metallicRoughnessTexture", material.metallicRoughnessTexture,
            true);
   bindSlot(rendering, gpuScene, "occlusionTexture", material.occlusionTexture, true);
   bindSlot(rendering, gpuScene, "specularTexture", material.specularTexture, false);
+  for (const scene::CustomShader::Picture& picture : material.shader.textures)
+    bindSlot(rendering, gpuScene, picture.name.c_str(), {.texture = picture.texture}, picture.data);
 }
 
 std::uint32_t cornersOf(gpu::Topology topology) {
@@ -62,19 +75,20 @@ void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
 }
 
 void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawList& list,
-              const gpu::Program& program, gpu::RenderState state, const gpu::Buffer& view) {
+              gpu::RenderState state, const ProgramOf& programOf) {
   const bool cullBackFaces = state.cull == gpu::Cull::Back;
+  rendering.buffer("ObjectBlock", gpuScene.objects);
   for (const DrawBatch& batch : list.batches) {
     const scene::Material& material = gpuScene.scene->materials[batch.material];
+    const gpu::Program* program = programOf(material);
+    if (!program) continue;
     state.cull = cullBackFaces && !material.doubleSided ? gpu::Cull::Back : gpu::Cull::None;
     state.frontIsClockwise = batch.mirrored;
     state.topology = batch.topology;
-    rendering.use(program, state);
-    rendering.buffer("ObjectBlock", gpuScene.objects);
+    rendering.use(*program, state);
     rendering.buffer("MaterialBlock", gpuScene.materials,
                      batch.material * sizeof(blocks::MaterialValues),
                      sizeof(blocks::MaterialValues));
-    rendering.buffer("ViewBlock", view);
     bindTextures(rendering, gpuScene, material);
     rendering.multiDraw(gpuScene.input, list.commands, batch.firstCommand, batch.commandCount,
                         batch.primitives);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -30,20 +31,26 @@ struct DrawLists {
   DrawList opaque;                        // by material, then mesh
   DrawList alphaTested;                   // likewise
   DrawList transparent;                   // back to front by the box's centre, ties by object index
-  DrawList mirrors;                       // filled once materials can be mirrors
+  DrawList mirrors;                       // scene::isMirror(); by material, then mesh
   std::uint32_t tested = 0, visible = 0;  // objects of the scene; of them in the lists
 
   std::array<DrawList*, 4> all() { return {&opaque, &alphaTested, &transparent, &mirrors}; }
+  // What hides what lies behind it.
+  std::array<const DrawList*, 3> solid() const { return {&opaque, &alphaTested, &mirrors}; }
 };
 
 // Makes batches and commands from list.objects, keeping their order.
 void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list);
 
-// Draws a list with one program: binds blocks, per batch the material's textures and cull side.
-// `state` gives everything but frontIsClockwise; its cull: Back culls the back faces of materials
-// that are not doubleSided, None culls nothing. view: the ViewBlock to draw from. Further blocks
-// that the program reads (lights) are bound by the caller before, after use() of the same program.
+// Chooses the program for a material and sets its uniforms. Null: batches of it are not drawn.
+using ProgramOf = std::function<const gpu::Program*(const scene::Material& material)>;
+
+// Draws a list: binds per batch its material's block and textures and sets the cull side. `state`
+// gives everything but frontIsClockwise; its cull: Back culls the back faces of materials that are
+// not doubleSided, None culls nothing. The caller has bound ViewBlock, the view to draw from (a
+// light's as well as an eye's), and what else the programs read. Depth alone: ObjectPrograms of
+// render/depth.frag.
 void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawList& list,
-              const gpu::Program& program, gpu::RenderState state, const gpu::Buffer& view);
+              gpu::RenderState state, const ProgramOf& programOf);
 
 }  // namespace lucerna::render

@@ -52,8 +52,17 @@ float materialType(scene::MaterialModel model) {
   return 0.f;
 }
 
+// As render/texture_environment.glsl numbers them.
+float combineCode(const scene::Scene& scene, const scene::Material& m) {
+  constexpr float kReplaceColor = 5.f;
+  if (m.combine != scene::Combine::Replace || !m.albedoTexture.used())
+    return static_cast<float>(m.combine);
+  const bool hasAlpha = scene.textures[m.albedoTexture.texture].image->channels() % 2 == 0;
+  return hasAlpha ? static_cast<float>(m.combine) : kReplaceColor;
+}
+
 // What the model ignores is 0, or 1 for roughness.
-blocks::MaterialValues materialValues(const scene::Material& m) {
+blocks::MaterialValues materialValues(const scene::Scene& scene, const scene::Material& m) {
   using Model = scene::MaterialModel;
   const bool lit = m.model != Model::Unlit;
   const bool rough = m.model == Model::MetallicRoughness || m.model == Model::SpecularGlossiness;
@@ -70,6 +79,12 @@ blocks::MaterialValues materialValues(const scene::Material& m) {
           .metallicRoughnessUse = textureUse(m.metallicRoughnessTexture),
           .occlusionUse = textureUse(m.occlusionTexture),
           .specularUse = textureUse(m.specularTexture),
+          .codes = vec4(m.shader.used() ? 1.f : 0.f, combineCode(scene, m),
+                        static_cast<float>(m.albedoTexture.coordinates),
+                        static_cast<float>(m.emissiveTexture.coordinates)),
+          .blendColor = vec4(m.blendColor, 0.f),
+          .albedoGeneration = {m.albedoTexture.planeS, m.albedoTexture.planeT},
+          .emissiveGeneration = {m.emissiveTexture.planeS, m.emissiveTexture.planeT},
           .unused = {}};
 }
 
@@ -94,7 +109,7 @@ void uploadObjects(gpu::Device& device, GpuScene& gpuScene) {
 void uploadMaterials(gpu::Device& device, GpuScene& gpuScene) {
   std::vector<blocks::MaterialValues> values;
   for (const scene::Material& material : gpuScene.scene->materials)
-    values.push_back(materialValues(material));
+    values.push_back(materialValues(*gpuScene.scene, material));
   device.write(gpuScene.materials, bytesOf(values), "MaterialBlock");
 }
 

@@ -38,22 +38,21 @@ struct GpuScene {
   std::vector<MeshRange> meshes;  // as Scene::meshes
   gpu::Buffer vertices, indices, objectIndices;
   gpu::VertexInput input;
-  gpu::Buffer objects, materials;      // ObjectBlock, MaterialBlock
-  std::vector<gpu::Texture> textures;  // as Scene::textures, each sRGB or linear as used; empty if
-                                       // no material uses it
+  gpu::Buffer objects, materials;  // ObjectBlock, MaterialBlock
+  // As Scene::textures, each sRGB or linear as used; empty if nothing uses it. GL's cube maps are
+  // left-handed: look one up at (x, y, -z).
+  std::vector<gpu::Texture> textures;
   // Data copies of the textures that are used both as data and as colour.
   std::vector<gpu::Texture> linearTextures;
   std::vector<gpu::Sampler> samplers;  // as Scene::textures
-  gpu::Texture white;                  // for unused slots
-  gpu::Texture backgroundCube;         // if the background is a cube map; z points the other
-                                       // way: look it up at (x, y, -z)
+  gpu::Texture white, whiteCube;       // for unused slots
   std::vector<bool> mirrored;          // per object: its matrix flips orientation
 };
 
 // Uploads everything. The scene must outlive it.
 void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene);
-// After animate(): object matrices, vertices of meshes that bent, boxes and BVH. Adds to changes.movedObjects; who runs a
-// frame clears the changes after it.
+// After animate(): object matrices, vertices of meshes that bent, boxes and BVH. Adds to
+// changes.movedObjects; who runs a frame clears the changes after it.
 void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::uint32_t> moved);
 
 }  // namespace lucerna::render

@@ -1,4 +1,7 @@
 // Places the scene's vertices: the vertex shader of everything that draws a render::DrawList.
+//   TEXTURE_ENVIRONMENT  for materials with generated coordinates (render/texture_environment.glsl)
+//   CUSTOM_SHADER        for materials with a shader of their own (render/custom_shader.glsl)
+// variant: TEXTURE_ENVIRONMENT=1
 #include "render/scene.glsl"
 #include "render/view.glsl"
 
@@ -18,6 +21,9 @@ layout(location = 1) out vec3 normalW;
 layout(location = 2) out vec4 tangentW;    // w: handedness in the world; all 0 where there is none
 layout(location = 3) out vec4 texCoords;   // set 0 in xy, set 1 in zw
 layout(location = 4) out vec4 vertexColor;
+#if defined(TEXTURE_ENVIRONMENT) || defined(CUSTOM_SHADER)
+layout(location = 5) out vec3 objectPositionO;
+#endif
 
 void main() {
   ObjectValues object = objects[objectIndex];
@@ -33,5 +39,8 @@ void main() {
   tangentW = vec4(mat3(object.worldFromObject) * tangentO.xyz, handedness);
   texCoords = vec4(texCoord0, texCoord1);
   vertexColor = color;
+#if defined(TEXTURE_ENVIRONMENT) || defined(CUSTOM_SHADER)
+  objectPositionO = positionO;
+#endif
   gl_Position = windowPosition(view.viewFromWorld * position);
 }

@@ -1,5 +1,7 @@
 // The fragment's side of drawing objects: from interpolated vertices, material and textures to the
 // Surface that is shaded or stored. Goes with render/object.vert.
+//   ALPHA_TEST           discard below the material's cutoff
+//   TEXTURE_ENVIRONMENT  generated coordinates, cube maps, combines other than modulate
 #include "render/scene.glsl"
 #include "render/surface.glsl"
 #include "render/view.glsl"
@@ -9,6 +11,9 @@ layout(location = 1) in vec3 normalW;
 layout(location = 2) in vec4 tangentW;
 layout(location = 3) in vec4 texCoords;
 layout(location = 4) in vec4 vertexColor;
+#if defined(TEXTURE_ENVIRONMENT) || defined(CUSTOM_SHADER)
+layout(location = 5) in vec3 objectPositionO;
+#endif
 
 uniform sampler2D albedoTexture;
 uniform sampler2D emissiveTexture;
@@ -17,18 +22,16 @@ uniform sampler2D metallicRoughnessTexture;
 uniform sampler2D occlusionTexture;
 uniform sampler2D specularTexture;
 
-vec2 texCoordOf(TextureUse use) {
-  vec2 uv = use.offset.z > 0.5 ? texCoords.zw : texCoords.xy;
+vec2 transformed(TextureUse use, vec2 uv) {
   return use.offset.xy + mat2(use.matrix.xy, use.matrix.zw) * uv;
+}
+
+vec2 texCoordOf(TextureUse use) {
+  return transformed(use, use.offset.z > 0.5 ? texCoords.zw : texCoords.xy);
 }
 
 vec4 sampled(sampler2D image, TextureUse use) {
   return use.offset.w > 0.5 ? texture(image, texCoordOf(use)) : vec4(1.0);
-}
-
-// Albedo and opacity: material, texture and vertex colour multiplied.
-vec4 materialColor() {
-  return material.albedo * vertexColor * sampled(albedoTexture, material.albedoUse);
 }
 
 // Lines and points without normals show their colour as it is.
@@ -61,6 +64,37 @@ void readSpecularGlossiness(vec4 specularTexel, inout Surface s) {
   s.albedo *= max(1.0 - max(max(s.specular.r, s.specular.g), s.specular.b), 0.0);
 }
 
+#include "render/texture_environment.glsl"
+
+// Albedo and opacity: of material and vertex, combined with the texture.
+vec4 materialColor() {
+  vec4 color = material.albedo * vertexColor;
+#ifdef TEXTURE_ENVIRONMENT
+  if (material.albedoUse.offset.w < 0.5) return color;
+  vec4 texel = sampled(albedoTexture, albedoCube, material.albedoUse, int(material.codes.z),
+                       material.albedoGeneration, shadingNormalW());
+  return combined(int(material.codes.y), color, texel);
+#else
+  return color * sampled(albedoTexture, material.albedoUse);
+#endif
+}
+
+void testAlpha(float alpha) {
+#ifdef ALPHA_TEST
+  if (alpha < material.transmission.w) discard;
+#endif
+}
+
+vec3 emittedRadiance(vec3 normalW) {
+#ifdef TEXTURE_ENVIRONMENT
+  return material.emissive.rgb * sampled(emissiveTexture, emissiveCube, material.emissiveUse,
+                                         int(material.codes.w), material.emissiveGeneration,
+                                         normalW).rgb;
+#else
+  return material.emissive.rgb * sampled(emissiveTexture, material.emissiveUse).rgb;
+#endif
+}
+
 Surface surfaceOf(vec4 baseColor) {
   Surface s;
   s.type = hasNormal() ? uint(material.surface.w) : kTypeUnlit;
@@ -68,7 +102,7 @@ Surface surfaceOf(vec4 baseColor) {
   s.normalW = shadingNormalW();
   s.toEyeW = toEyeFrom(positionW);
   s.albedo = baseColor.rgb;
-  s.emissive = material.emissive.rgb * sampled(emissiveTexture, material.emissiveUse).rgb;
+  s.emissive = emittedRadiance(s.normalW);
   float occlusion = sampled(occlusionTexture, material.occlusionUse).r;
   s.occlusion = 1.0 + material.surface.z * (occlusion - 1.0);
   vec4 specular = sampled(specularTexture, material.specularUse);

@@ -10,7 +10,7 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene);
 // The vertices of meshes whose version is another than on the GPU.
 void uploadBentMeshes(gpu::Device& device, GpuScene& gpuScene);
 
-// textures, linearTextures, samplers, white, backgroundCube.
+// textures, linearTextures, samplers, white, whiteCube.
 void uploadTextures(gpu::Device& device, GpuScene& gpuScene);
 
 }  // namespace lucerna::render

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 
-#include "core/log.hpp"
 #include "render/upload.hpp"
 
 namespace lucerna::render {
@@ -24,8 +23,10 @@ std::vector<Uses> textureUses(const scene::Scene& scene) {
     mark(material.normalTexture.texture, &Uses::data);
     mark(material.metallicRoughnessTexture.texture, &Uses::data);
     mark(material.occlusionTexture.texture, &Uses::data);
+    for (const scene::CustomShader::Picture& picture : material.shader.textures)
+      mark(picture.texture, picture.data ? &Uses::data : &Uses::color);
   }
-  if (scene.background.kind == scene::BackgroundKind::Image)
+  if (scene.background.kind != scene::BackgroundKind::Color)
     mark(scene.background.texture, &Uses::color);
   return uses;
 }
@@ -46,12 +47,22 @@ Image pixelsFor(const Image& image) {
 
 gpu::Texture textureOf(gpu::Device& device, const scene::Texture& texture, bool color) {
   const Image& image = *texture.image;
-  gpu::Texture result = device.createTexture({.format = formatFor(image, color),
-                                              .width = image.width(),
-                                              .height = image.height(),
-                                              .levels = 0},
-                                             texture.name);
-  device.upload(result, pixelsFor(image));
+  const bool cube = texture.isCube();
+  gpu::Texture result =
+      device.createTexture({.kind = cube ? gpu::TextureKind::Cube : gpu::TextureKind::Plain2D,
+                            .format = formatFor(image, color),
+                            .width = image.width(),
+                            .height = image.height(),
+                            .layers = cube ? 6 : 1,
+                            .levels = 0},
+                           texture.name);
+  // GL's cube maps are left-handed: with z turned round each face is upright from inside.
+  constexpr std::array<std::size_t, 6> kFaceOfLayer = {0, 1, 2, 3, 5, 4};
+  for (int layer = 0; layer < result.desc().layers; ++layer) {
+    const auto index = static_cast<std::size_t>(layer);
+    const Image& face = cube ? *texture.faces[kFaceOfLayer[index]] : image;
+    device.upload(result, pixelsFor(face), layer);
+  }
   device.generateMipmaps(result);
   return result;
 }
@@ -68,51 +79,12 @@ gpu::Address addressOf(scene::Wrap wrap) {
   return gpu::Address::Repeat;
 }
 
-gpu::Texture whiteTexture(gpu::Device& device) {
-  gpu::Texture texture = device.createTexture({.format = gpu::Format::Rgba8Unorm}, "white");
+gpu::Texture whiteTexture(gpu::Device& device, gpu::TextureKind kind) {
+  const int layers = kind == gpu::TextureKind::Cube ? 6 : 1;
+  gpu::Texture texture = device.createTexture(
+      {.kind = kind, .format = gpu::Format::Rgba8Unorm, .layers = layers}, "white");
   device.clear(texture, vec4(1.f));
   return texture;
-}
-
-// Faces that a cube map can be made of: all there, square, one size and kind.
-bool cubeFits(const scene::Scene& scene) {
-  const auto& faces = scene.background.faces;
-  if (std::ranges::any_of(faces, [](std::uint32_t face) { return face == scene::kNone; }))
-    return false;
-  const Image& first = *scene.textures[faces[0]].image;
-  return std::ranges::all_of(faces, [&](std::uint32_t face) {
-    const Image& image = *scene.textures[face].image;
-    return image.width() == first.width() && image.height() == first.width() &&
-           isFloat(image) == isFloat(first);
-  });
-}
-
-gpu::Texture backgroundCube(gpu::Device& device, const scene::Scene& scene) {
-  if (scene.background.kind != scene::BackgroundKind::CubeMap) return {};
-  if (!cubeFits(scene)) {
-    log::warning(
-        "{}: the background's cube map needs six square pictures of one size and kind; its colour "
-        "is shown instead. Make the faces equal, or name a flat picture.",
-        scene.name);
-    return {};
-  }
-  // GL's cube maps are left-handed: seen with z turned round, each face is what a camera at the
-  // origin sees along its axis, upright.
-  constexpr std::array<int, 6> kFaceOfLayer = {0, 1, 2, 3, 5, 4};
-  const Image& first = *scene.textures[scene.background.faces[0]].image;
-  gpu::Texture cube = device.createTexture({.kind = gpu::TextureKind::Cube,
-                                            .format = formatFor(first, true),
-                                            .width = first.width(),
-                                            .height = first.height(),
-                                            .layers = 6,
-                                            .levels = 0},
-                                           "background");
-  for (int layer = 0; layer < 6; ++layer) {
-    const std::uint32_t face = scene.background.faces[kFaceOfLayer[layer]];
-    device.upload(cube, pixelsFor(*scene.textures[face].image), layer);
-  }
-  device.generateMipmaps(cube);
-  return cube;
 }
 
 }  // namespace
@@ -134,8 +106,8 @@ void uploadTextures(gpu::Device& device, GpuScene& gpuScene) {
                                  .u = addressOf(texture.wrapS),
                                  .v = addressOf(texture.wrapT)});
   }
-  gpuScene.white = whiteTexture(device);
-  gpuScene.backgroundCube = backgroundCube(device, scene);
+  gpuScene.white = whiteTexture(device, gpu::TextureKind::Plain2D);
+  gpuScene.whiteCube = whiteTexture(device, gpu::TextureKind::Cube);
 }
 
 }  // namespace lucerna::render

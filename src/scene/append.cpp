@@ -17,13 +17,14 @@ void move(std::vector<T>& to, std::vector<T>& from) {
 
 // All indices into Scene::meshes and Scene::textures.
 void shiftShared(Scene& scene, std::size_t meshes, std::size_t textures) {
-  for (Material& m : scene.materials)
+  for (Material& m : scene.materials) {
     for (TextureSlot* slot : {&m.albedoTexture, &m.emissiveTexture, &m.normalTexture,
                               &m.metallicRoughnessTexture, &m.occlusionTexture, &m.specularTexture})
       shift(slot->texture, textures);
+    for (CustomShader::Picture& picture : m.shader.textures) shift(picture.texture, textures);
+  }
   for (Object& object : scene.objects) shift(object.mesh, meshes);
   shift(scene.background.texture, textures);
-  for (std::uint32_t& face : scene.background.faces) shift(face, textures);
 }
 
 template <typename T>
@@ -86,8 +87,7 @@ void moveShared(Scene& scene, std::vector<Mesh>& meshes, std::vector<Texture>& t
 std::uint64_t bytesOf(const Scene& scene) {
   std::uint64_t bytes = scene.objects.size() * sizeof(Object);
   bytes += bytesOfNamed(scene.nodes) + bytesOfNamed(scene.materials) + bytesOfNamed(scene.lights) +
-           bytesOfNamed(scene.cameras) + bytesOfNamed(scene.animations) +
-           bytesOfNamed(scene.skins);
+           bytesOfNamed(scene.cameras) + bytesOfNamed(scene.animations) + bytesOfNamed(scene.skins);
   for (const Node& node : scene.nodes) bytes += node.weights.size() * sizeof(float);
   for (const Skin& skin : scene.skins)
     bytes += skin.joints.size() * (sizeof(std::uint32_t) + sizeof(mat4));

@@ -87,6 +87,11 @@ enum class Wrap { Repeat, MirroredRepeat, ClampToEdge };
 struct Texture {
   std::string name;
   std::shared_ptr<const Image> image;  // never null: a missing file is a checkerboard stand-in
+  // A cube map's six pictures, +x -x +y -y +z -z, each what a camera at the origin sees along that
+  // axis, upright (up and down by tilting the head from -z): squares of one size and kind, `image`
+  // the first. Else empty.
+  std::vector<std::shared_ptr<const Image>> faces{};
+  bool isCube() const { return !faces.empty(); }
   Wrap wrapS = Wrap::Repeat, wrapT = Wrap::Repeat;
   bool nearest = false;  // magnification without filtering
 };
@@ -118,9 +123,7 @@ struct Background {
   BackgroundKind kind = BackgroundKind::Color;
   vec3 color{0.035f, 0.045f, 0.06f};  // linear radiance; the documented default, not black
   float intensity = 1.f;              // of the image or cube map
-  std::uint32_t texture = kNone;      // Image: stretched over the output
-  std::array<std::uint32_t, 6> faces{kNone, kNone, kNone,
-                                     kNone, kNone, kNone};  // +x -x +y -y +z -z
+  std::uint32_t texture = kNone;      // Image: stretched over the output; CubeMap: a cube map
 };
 
 struct Scene {
@@ -154,8 +157,8 @@ void updateTransforms(Scene& scene);
 // Returns the indices of objects whose world matrix or mesh changed.
 std::vector<std::uint32_t> animate(Scene& scene, float time);
 
-// Lets one animation play and no other: a name, an index, or "none". ErrorKind::Usage says what there
-// is to choose from, and changes nothing.
+// Lets one animation play and no other: a name, an index, or "none". ErrorKind::Usage says what
+// there is to choose from, and changes nothing.
 Status chooseAnimation(Scene& scene, const std::string& choice);
 
 // The lights that are on, where they stand.

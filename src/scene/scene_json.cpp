@@ -142,11 +142,12 @@ void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoa
   root.format(kFormat);
   if (root.has("include")) readIncludes(root.at("include"), folder, scene, load);
   readAnimation(root, scene);
-  if (root.has("materials")) readMaterials(root.at("materials"), scene);
+  JsonPictures pictures(folder, load);
+  if (root.has("materials")) readMaterials(root.at("materials"), pictures, scene);
   if (root.has("lightSettings")) readLightSettings(root.at("lightSettings"), scene);
   if (root.has("lights")) readLights(root.at("lights"), scene);
   if (root.has("cameras")) readCameras(root.at("cameras"), scene);
-  if (root.has("background")) readBackground(root.at("background"), folder, load, scene.background);
+  if (root.has("background")) readBackground(root.at("background"), pictures, scene.background);
   root.read("ambient", scene.ambient, kNotNegative);
   root.read("exposure", scene.exposure, {-30.f, 30.f, "EV"});
 }

@@ -3,12 +3,76 @@
 
 #include "core/text.hpp"
 #include "scene/scene_json_parts.hpp"
-#include "scene/texture_store.hpp"
 
 namespace lucerna::scene {
 namespace {
 
-void readMaterial(const JsonValue& from, Material& material) {
+constexpr std::initializer_list<const char*> kEmissiveKeys = {
+    "file", "faces", "wrap", "coordinates", "planeS", "planeT", "offset", "scale", "rotation"};
+constexpr std::initializer_list<const char*> kAlbedoKeys = {
+    "file",   "faces", "wrap",     "coordinates", "planeS",    "planeT",
+    "offset", "scale", "rotation", "combine",     "blendColor"};
+
+void readAlbedoTexture(const JsonValue& from, JsonPictures& pictures, Material& material) {
+  if (!from.object(kAlbedoKeys)) return;
+  readSlot(from, pictures, material.albedoTexture);
+  int choice = 0;
+  if (from.readChoice("combine", {"modulate", "decal", "blend", "add", "replace"}, choice))
+    material.combine = static_cast<Combine>(choice);
+  from.read("blendColor", material.blendColor, kUnitRange);
+}
+
+void readEmissiveTexture(const JsonValue& from, JsonPictures& pictures, Material& material) {
+  if (from.object(kEmissiveKeys)) readSlot(from, pictures, material.emissiveTexture);
+}
+
+void readParameter(const std::string& name, const JsonValue& from, CustomShader& shader) {
+  CustomShader::Parameter parameter{.name = name};
+  if (from.isNumber()) {
+    if (!from.number(parameter.value.x, kAnyNumber)) return;
+  } else {
+    const std::size_t size = from.isList() ? from.elements().size() : 0;
+    if (size < 2 || size > 4) return from.wrong("a number, or a list of 2 to 4 numbers");
+    if (!from.numbers({glm::value_ptr(parameter.value), size}, kAnyNumber)) return;
+    parameter.size = static_cast<int>(size);
+  }
+  shader.parameters.push_back(std::move(parameter));
+}
+
+void readShaderTexture(const std::string& name, const JsonValue& from, JsonPictures& pictures,
+                       CustomShader& shader) {
+  if (!from.object({"file", "faces", "wrap", "data"})) return;
+  if (from.has("file") == from.has("faces"))
+    return from.wrong("\"file\" or six \"faces\", one of them");
+  CustomShader::Picture picture{.name = name};
+  picture.texture = from.has("file") ? pictures.add(from.at("file"), readWrap(from))
+                                     : pictures.addCube(from.at("faces"));
+  from.read("data", picture.data);
+  if (picture.texture != kNone) shader.textures.push_back(std::move(picture));
+}
+
+void readShader(const JsonValue& from, JsonPictures& pictures, Material& material) {
+  if (!from.object({"file", "parameters", "textures"})) return;
+  CustomShader shader;
+  std::string file;
+  if (!from.has("file")) return from.wrong("no \"file\"", "a fragment shader");
+  if (!from.read("file", file) || !pictures.mayRead(from.at("file"))) return;
+  std::error_code code;
+  const auto path = std::filesystem::absolute(pictures.folder() / file, code).lexically_normal();
+  if (!std::filesystem::is_regular_file(path, code))
+    return from.at("file").wrong(fmt::format("{}, which is no file", path.string()),
+                                 "a fragment shader that includes \"render/custom_shader.glsl\"");
+  shader.file = path.string();
+  if (from.has("parameters"))
+    for (const auto& [name, value] : from.at("parameters").members())
+      readParameter(name, value, shader);
+  if (from.has("textures"))
+    for (const auto& [name, value] : from.at("textures").members())
+      readShaderTexture(name, value, pictures, shader);
+  material.shader = std::move(shader);
+}
+
+void readMaterial(const JsonValue& from, JsonPictures& pictures, Material& material) {
   int choice = 0;
   if (from.readChoice("model", {"phong", "metallic-roughness", "unlit", "specular-glossiness"},
                       choice))
@@ -27,37 +91,22 @@ void readMaterial(const JsonValue& from, Material& material) {
   from.read("shininess", material.shininess, {0.f, 255.f});
   from.read("metallic", material.metallic, kUnitRange);
   from.read("roughness", material.roughness, kUnitRange);
-}
-
-std::uint32_t addPicture(const JsonValue& value, const std::filesystem::path& folder,
-                         SceneLoad& load) {
-  std::string name;
-  if (!value.text(name)) return kNone;
-  if (load.outsideFiles == OutsideFiles::Refuse) {
-    value.wrong("nothing: no other file may be read here");
-    return kNone;
-  }
-  TextureStore store;
-  store.addFile(folder / name);
-  std::vector<std::string> problems;
-  Texture texture;
-  texture.name = name;
-  texture.image = store.load(problems).front();
-  for (const std::string& problem : problems)
-    value.fault(problem + "; wanted a picture (PNG, JPEG, TGA, BMP, HDR or EXR)");
-  texture.wrapS = texture.wrapT = Wrap::ClampToEdge;
-  load.textures.push_back(std::move(texture));
-  return static_cast<std::uint32_t>(load.textures.size() - 1);
+  from.read("reflectivity", material.reflectivity, kUnitRange);
+  if (from.has("albedoTexture")) readAlbedoTexture(from.at("albedoTexture"), pictures, material);
+  if (from.has("emissiveTexture"))
+    readEmissiveTexture(from.at("emissiveTexture"), pictures, material);
+  if (from.has("shader")) readShader(from.at("shader"), pictures, material);
 }
 
 }  // namespace
 
-void readMaterials(const JsonValue& materials, Scene& scene) {
+void readMaterials(const JsonValue& materials, JsonPictures& pictures, Scene& scene) {
   std::vector<std::string> names;
   for (const Material& material : scene.materials) names.push_back(material.name);
   for (const auto& [name, from] : materials.members()) {
     if (!from.object({"model", "albedo", "opacity", "alphaMode", "alphaCutoff", "transmission",
-                      "emissive", "doubleSided", "specular", "shininess", "metallic", "roughness"}))
+                      "emissive", "doubleSided", "specular", "shininess", "metallic", "roughness",
+                      "albedoTexture", "emissiveTexture", "reflectivity", "shader"}))
       continue;
     if (std::find(names.begin(), names.end(), name) == names.end()) {
       from.fault(fmt::format("the scene has no material '{}'{}; wanted one of its {} materials",
@@ -65,36 +114,21 @@ void readMaterials(const JsonValue& materials, Scene& scene) {
       continue;
     }
     for (Material& material : scene.materials)
-      if (material.name == name) readMaterial(from, material);
+      if (material.name == name) readMaterial(from, pictures, material);
   }
 }
 
-void readBackground(const JsonValue& from, const std::filesystem::path& folder, SceneLoad& load,
-                    Background& background) {
+void readBackground(const JsonValue& from, JsonPictures& pictures, Background& background) {
   if (!from.object({"color", "image", "faces", "intensity"})) return;
   if (from.has("image") && from.has("faces"))
     return from.wrong("both \"image\" and \"faces\"", "one of them");
   if (from.read("color", background.color, kNotNegative)) background.kind = BackgroundKind::Color;
   from.read("intensity", background.intensity, kNotNegative);
-  if (from.has("image")) {
-    background.texture = addPicture(from.at("image"), folder, load);
-    if (background.texture != kNone) background.kind = BackgroundKind::Image;
-  }
-  if (!from.has("faces")) return;
-  const std::vector<JsonValue> faces = from.at("faces").elements();
-  if (faces.size() != 6) return from.at("faces").wrong("six pictures: +x, -x, +y, -y, +z, -z");
-  std::array<std::uint32_t, 6> sides{};
-  for (std::size_t i = 0; i < 6; ++i) sides[i] = addPicture(faces[i], folder, load);
-  if (std::find(sides.begin(), sides.end(), kNone) != sides.end()) return;
-  const Image& first = *load.textures[sides[0]].image;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Image& image = *load.textures[sides[i]].image;
-    if (image.width() != image.height() || image.width() != first.width())
-      return faces[i].wrong(fmt::format("a picture of {} x {}", image.width(), image.height()),
-                            "six squares of one size");
-  }
-  background.faces = sides;
-  background.kind = BackgroundKind::CubeMap;
+  if (!from.has("image") && !from.has("faces")) return;
+  background.texture =
+      from.has("image") ? pictures.add(from.at("image")) : pictures.addCube(from.at("faces"));
+  if (background.texture == kNone) return;
+  background.kind = from.has("image") ? BackgroundKind::Image : BackgroundKind::CubeMap;
 }
 
 }  // namespace lucerna::scene

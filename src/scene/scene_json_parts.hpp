@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "core/json_value.hpp"
 #include "scene/load_parts.hpp"
@@ -10,12 +12,39 @@
 
 namespace lucerna::scene {
 
-void readMaterials(const JsonValue& materials, Scene& scene);
+// Pictures that the JSON names, added to the textures of `load`, each once. Paths are relative to
+// the folder.
+class JsonPictures {
+ public:
+  JsonPictures(std::filesystem::path folder, SceneLoad& load)
+      : folder_(std::move(folder)), load_(load) {}
+
+  // Index in those textures, or kNone after a fault.
+  std::uint32_t add(const JsonValue& file, Wrap wrap = Wrap::ClampToEdge);
+  std::uint32_t addCube(const JsonValue& sixFiles);
+  bool isCube(std::uint32_t texture) const { return load_.textures[texture].isCube(); }
+  // Reports and returns false where no other file may be read.
+  bool mayRead(const JsonValue& file) const;
+  const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::shared_ptr<const Image> load(const JsonValue& file, const std::string& name);
+  std::uint32_t addTexture(Texture texture);
+
+  std::filesystem::path folder_;
+  SceneLoad& load_;
+  std::map<std::string, std::uint32_t> known_;
+};
+
+// "wrap": Repeat unless given.
+Wrap readWrap(const JsonValue& from);
+// A texture of a material. The keys were checked.
+void readSlot(const JsonValue& from, JsonPictures& pictures, TextureSlot& slot);
+
+void readMaterials(const JsonValue& materials, JsonPictures& pictures, Scene& scene);
 void readLights(const JsonValue& lights, Scene& scene);
 void readLightSettings(const JsonValue& settings, Scene& scene);
 void readCameras(const JsonValue& cameras, Scene& scene);
-// Pictures go to the textures of `load`, which the background's indices mean.
-void readBackground(const JsonValue& from, const std::filesystem::path& folder, SceneLoad& load,
-                    Background& background);
+void readBackground(const JsonValue& from, JsonPictures& pictures, Background& background);
 
 }  // namespace lucerna::scene

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/file.hpp"
+#include "image/image_file.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::scene {
@@ -32,6 +33,10 @@ class SceneJson : public testing::Test {
   }
   std::string path(const std::string& name) const { return (folder_ / name).string(); }
 
+  void writePicture(const std::string& name, int width, int height) {
+    const Status written = writeImage(folder_ / name, Image(width, height, 4, ComponentType::U8));
+    ASSERT_TRUE(written) << written.error().message;
+  }
   // The messages of a JSON that is refused.
   std::string faultsOf(const std::string& text) {
     write("s.json", text);
@@ -133,6 +138,94 @@ TEST_F(SceneJson, LightSettingsChangeALightByName) {
   EXPECT_EQ(scene->lights[0].attenuation, vec3(1, 0, 1));
 }
 
+TEST_F(SceneJson, MaterialsTakeTexturesCombinesAndGeneratedCoordinates) {
+  writePicture("moss.png", 4, 2);
+  for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"})
+    writePicture(std::string(face) + ".png", 4, 4);
+  write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+    "materials": {"paint": {
+      "albedoTexture": {"file": "moss.png", "wrap": "mirror", "combine": "blend",
+                        "blendColor": [1, 0.5, 0], "coordinates": "eye-linear",
+                        "planeS": [1, 0, 0, 0.5], "scale": [2, 3], "rotation": 90},
+      "emissive": [1, 1, 1],
+      "emissiveTexture": {"faces": ["px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png"]}}},
+    "background": {"faces": ["px.png", "nx.png", "py.png", "ny.png", "pz.png", "nz.png"]}})");
+  const Result<Scene> scene = loadScene(path("s.json"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Material& paint = scene->materials[0];
+  ASSERT_EQ(scene->textures.size(), 2u) << "the cube map is shared";
+  const Texture& moss = scene->textures[paint.albedoTexture.texture];
+  EXPECT_EQ(moss.image->width(), 4);
+  EXPECT_EQ(moss.wrapT, Wrap::MirroredRepeat);
+  EXPECT_EQ(paint.combine, Combine::Blend);
+  EXPECT_EQ(paint.blendColor, vec3(1, 0.5f, 0));
+  EXPECT_EQ(paint.albedoTexture.coordinates, Coordinates::EyeLinear);
+  EXPECT_EQ(paint.albedoTexture.planeS, vec4(1, 0, 0, 0.5f));
+  EXPECT_EQ(paint.albedoTexture.planeT, vec4(0, 1, 0, 0));
+  EXPECT_EQ(paint.albedoTexture.scale, vec2(2, 3));
+  EXPECT_NEAR(paint.albedoTexture.rotation, glm::half_pi<float>(), 1e-6f);
+  EXPECT_EQ(scene->textures[paint.emissiveTexture.texture].faces.size(), 6u);
+  EXPECT_EQ(paint.emissiveTexture.coordinates, Coordinates::Reflection);
+  EXPECT_EQ(scene->background.texture, paint.emissiveTexture.texture);
+  EXPECT_TRUE(usesTextureEnvironment(paint));
+}
+
+TEST_F(SceneJson, MaterialsBringShadersWithParametersAndTextures) {
+  writePicture("grain.png", 2, 2);
+  write("rock.frag", "vec3 radianceOf(Surface s) { return shade(s); }\n");
+  write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+    "materials": {"paint": {"reflectivity": 0.5, "shader": {"file": "rock.frag",
+      "parameters": {"speed": 0.5, "pair": [1, 2], "glow": [3, 4, 5], "four": [6, 7, 8, 9]},
+      "textures": {"grain": {"file": "grain.png", "data": true}}}}}})");
+  const Result<Scene> scene = loadScene(path("s.json"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->materials[0].reflectivity, 0.5f);
+  const CustomShader& shader = scene->materials[0].shader;
+  EXPECT_TRUE(fs::path(shader.file).is_absolute());
+  EXPECT_EQ(fs::path(shader.file).filename(), "rock.frag");
+  ASSERT_EQ(shader.parameters.size(), 4u);  // as the file has them
+  EXPECT_EQ(shader.parameters[0].name, "speed");
+  EXPECT_EQ(shader.parameters[0].size, 1);
+  EXPECT_EQ(shader.parameters[0].value.x, 0.5f);
+  EXPECT_EQ(shader.parameters[3].name, "four");
+  EXPECT_EQ(shader.parameters[3].value, vec4(6, 7, 8, 9));
+  ASSERT_EQ(shader.textures.size(), 1u);
+  EXPECT_TRUE(shader.textures[0].data);
+  EXPECT_EQ(scene->textures[shader.textures[0].texture].image->width(), 2);
+  const auto fault = [&](const std::string& text) {
+    return faultsOf(R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+      "materials": {"paint": {"shader": )" +
+                    text + "}}}");
+  };
+  EXPECT_THAT(fault("{}"), HasSubstr("found no \"file\""));
+  EXPECT_THAT(fault(R"({"file": "none.frag"})"), HasSubstr("none.frag, which is no file"));
+  EXPECT_THAT(fault(R"({"file": "rock.frag", "parameters": {"a": [1]}})"), HasSubstr("2 to 4"));
+  EXPECT_THAT(fault(R"({"file": "rock.frag", "parameters": {"a": [1, "b"]}})"),
+              HasSubstr("wanted a number"));
+  EXPECT_THAT(fault(R"({"file": "rock.frag", "textures": {"a": {}}})"), HasSubstr("\"faces\""));
+}
+
+TEST_F(SceneJson, TexturesThatDoNotFitAreFaults) {
+  writePicture("flat.png", 4, 2);
+  writePicture("face.png", 4, 4);
+  const auto fault = [&](const std::string& slot) {
+    return faultsOf(R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+      "materials": {"paint": {"albedoTexture": )" +
+                    slot + "}}}");
+  };
+  EXPECT_THAT(fault(R"({"combine": "decal"})"), HasSubstr("wanted \"file\" or six \"faces\""));
+  EXPECT_THAT(fault(R"({"file": "none.png"})"), HasSubstr("none.png"));
+  EXPECT_THAT(fault(R"({"file": "flat.png", "combine": "dekal"})"), HasSubstr("'decal'"));
+  EXPECT_THAT(fault(R"({"file": "flat.png", "coordinates": "reflection"})"),
+              HasSubstr("wanted six \"faces\""));
+  EXPECT_THAT(fault(R"({"file": "flat.png", "planeS": [1, 0, 0]})"), HasSubstr("4 numbers"));
+  const std::string five = R"("face.png", "face.png", "face.png", "face.png", "face.png", )";
+  EXPECT_THAT(fault("{\"faces\": [" + five + "\"face.png\"], \"coordinates\": \"mesh\"}"),
+              HasSubstr("\"reflection\""));
+  EXPECT_THAT(fault("{\"faces\": [" + five + "\"flat.png\"]}"), HasSubstr("4 x 2"));
+  EXPECT_THAT(fault(R"({"faces": ["face.png"]})"), HasSubstr("six pictures"));
+}
+
 TEST_F(SceneJson, AnglesAreDegreesAndTheFirstCameraIsTheJsons) {
   write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
     "lights": [{"kind": "spot", "position": [0, 4, 0], "direction": [0, -1, 0],
@@ -228,9 +321,10 @@ TEST_F(SceneJson, TheExampleOfTheDocumentationIsGood) {
     write(fmt::format("{}.obj", name),
           "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\n"
           "usemtl glass\nf 1 2 3\nusemtl paint\nf 1 2 4\n"
-          "usemtl steel\nf 2 3 4\n");
+          "usemtl steel\nf 2 3 4\nusemtl sign\nf 2 3 4\n");
   }
-  write("m.mtl", "newmtl glass\nnewmtl paint\nnewmtl steel\n");
+  write("m.mtl", "newmtl glass\nnewmtl paint\nnewmtl steel\nnewmtl sign\n");
+  writePicture("sign.png", 8, 8);
   const Result<Scene> scene = loadScene(path("s.json"));
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_EQ(scene->lights.size(), 3u);

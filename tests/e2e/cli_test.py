@@ -201,6 +201,22 @@ class CliTest(unittest.TestCase):
         self.assert_ok(show)
         self.assertIn("level", [param["name"] for param in json.loads(show.stdout)["params"]])
 
+    def test_materials_with_shaders_of_their_own(self):
+        self.write("tri.obj", "mtllib tri.mtl\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n")
+        self.write("tri.mtl", "newmtl paint\nKd 0.5 0.5 0.5\n")
+        self.write("tri.lucerna.json", json.dumps({"lucerna": "scene/1", "materials": {"paint": {
+            "shader": {"file": "glow.frag", "parameters": {"tint": [1, 0, 0]}}}}}))
+        render = ["render", "tri.obj", *SMALL, "-o", "a.png"]
+        self.assert_fails(3, "tri.lucerna.json:1", "glow.frag, which is no file", "custom_shader.glsl", arguments=render)
+        shader = '#include "render/custom_shader.glsl"\nuniform vec3 tint;\nvec3 radianceOf(Surface s) {\n'
+        self.write("glow.frag", shader + "  return tint.nothing;\n}\n")
+        self.assert_fails(5, "glow.frag:4: error", "nothing", arguments=render)
+        self.write("glow.frag", shader.replace("vec3 tint", "vec4 tint") + "  return tint.rgb;\n}\n")
+        self.assert_fails(5, "glow.frag", "'tint' is vec3", "vec4", arguments=render)
+        self.write("glow.frag", shader + "  return tint * s.normalW.z;\n}\n")
+        for pipeline in "deferred", "forward":
+            self.assert_ok(self.lucerna(*render, "--pipeline", pipeline))
+
     def test_a_driver_that_lacks_a_feature(self):
         caps = self.write("caps.json", '{"name": "poor", "features": [], "renderable": ["Rgba8Unorm"]}')
         run = self.lucerna("pipeline", "check", "deferred", "--caps", caps, "--json")

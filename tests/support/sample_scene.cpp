@@ -26,7 +26,7 @@ scene::Texture checkerboard() {
 
 std::vector<scene::Material> sampleMaterials() {
   using scene::MaterialModel;
-  std::vector<scene::Material> materials(6);
+  std::vector<scene::Material> materials(7);
   scene::Material& floor = materials[0];
   floor.name = "floor";
   floor.metallic = 0.f;
@@ -59,6 +59,11 @@ std::vector<scene::Material> sampleMaterials() {
   lamp.name = "lamp";
   lamp.albedo = {0.1f, 0.1f, 0.1f, 1.f};
   lamp.emissive = {2.f, 1.5f, 0.6f};
+  scene::Material& lava = materials[6];
+  lava.name = "lava";
+  lava.metallic = 0.f;
+  lava.shader = {.file = "render/custom/lava.frag",
+                 .textures = {{.name = "grain", .texture = 0, .data = true}}};
   return materials;
 }
 
@@ -168,6 +173,7 @@ scene::Scene sampleScene() {
   place(4, {-0.4f, 0.5f, 1.5f}, {0.8f, 1.f, 0.1f});
   place(4, {0.5f, 0.5f, 2.f}, {0.8f, 1.f, 0.1f});
   place(5, {0.4f, 1.2f, -1.5f}, vec3(0.3f));
+  place(6, {-1.3f, 0.3f, 1.4f}, vec3(0.6f));
   addLights(scene);
   addCamera(scene, {0.5f, 2.f, 5.f}, {0, 0.4f, 0});
   updateTransforms(scene);

@@ -12,8 +12,8 @@
 
 namespace lucerna::testing {
 
-const std::vector<std::string> kDeferredRows = {"Cull",       "GBuffer",      "Lighting",
-                                                "Background", "Transparency", "ToneMap"};
+const std::vector<std::string> kDeferredRows = {
+    "Cull", "GBuffer", "Lighting", "CustomShaders", "Background", "Transparency", "ToneMap"};
 const std::vector<std::string> kForwardRows = {"Cull", "Forward", "Background", "Transparency",
                                                "ToneMap"};
 

@@ -79,8 +79,8 @@ inline vec3 centerOf(const Image& image) {
 Image asFloatRgb(const Image& image);
 
 // A small scene with every kind of surface and light that the passes tell apart: Phong and
-// metallic-roughness, textured, alpha-tested and translucent boxes on a floor; a directional, a
-// point and a spot light; a camera.
+// metallic-roughness, textured, alpha-tested, translucent and custom-shader boxes on a floor; a
+// directional, a point and a spot light; a camera.
 scene::Scene sampleScene();
 
 // A scene with a camera at the origin that looks along -z, and nothing else: no light, no ambient,

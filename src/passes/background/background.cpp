@@ -37,9 +37,8 @@ Background::Background(gpu::Device& device)
 void Background::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   const render::GpuScene& gpuScene = *ports.scene;
   const scene::Background& background = gpuScene.scene->background;
-  const bool image =
-      background.kind == scene::BackgroundKind::Image && background.texture != scene::kNone;
-  const bool cubeMap = static_cast<bool>(gpuScene.backgroundCube);
+  const bool image = background.kind == scene::BackgroundKind::Image;
+  const bool cubeMap = background.kind == scene::BackgroundKind::CubeMap;
   const gpu::Program& program = cubeMap ? *cubeMap_ : image ? *image_ : *color_;
 
   gpu::Rendering rendering =
@@ -55,7 +54,8 @@ void Background::execute(graph::PassContext& context, const Params& params, cons
     rendering.texture("image", gpuScene.textures[background.texture], sampler);
   }
   if (cubeMap) {
-    rendering.texture("cubeMap", gpuScene.backgroundCube, {.filter = gpu::Filter::Trilinear});
+    rendering.texture("cubeMap", gpuScene.textures[background.texture],
+                      {.filter = gpu::Filter::Trilinear});
   }
   rendering.fullscreen();
 }

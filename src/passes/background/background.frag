@@ -25,7 +25,7 @@ void main() {
   color.rgb *= texture(image, vec2(place.x, 1.0 - place.y)).rgb;
 #endif
 #ifdef CUBE_MAP
-  // GL's cube maps are left-handed (render::GpuScene::backgroundCube).
+  // GL's cube maps are left-handed (render::GpuScene::textures).
   color.rgb *= texture(cubeMap, lookDirectionW(ndcOfPixel(gl_FragCoord.xy)) * vec3(1, 1, -1)).rgb;
 #endif
 }

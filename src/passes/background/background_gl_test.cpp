@@ -59,10 +59,11 @@ TEST(Background, StretchesAPictureOverTheOutputUpright) {
 TEST(Background, ACubeMapStandsUprightAroundTheEye) {
   scene::Scene scene = testing::emptyScene();
   scene.background.kind = scene::BackgroundKind::CubeMap;
-  for (std::uint32_t face = 0; face < 6; ++face) {
-    scene.textures.push_back(quarters(1.f + static_cast<float>(face)));
-    scene.background.faces[face] = face;
-  }
+  scene::Texture& cube = scene.textures.emplace_back();
+  for (int face = 0; face < 6; ++face)
+    cube.faces.push_back(quarters(1.f + static_cast<float>(face)).image);
+  cube.image = cube.faces[0];
+  scene.background.texture = 0;
   const std::array<vec3, 6> kAxes = {vec3(1, 0, 0),  vec3(-1, 0, 0), vec3(0, 1, 0),
                                      vec3(0, -1, 0), vec3(0, 0, 1),  vec3(0, 0, -1)};
   testing::SceneRenderer renderer(scene);

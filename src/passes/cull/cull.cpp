@@ -65,6 +65,10 @@ void Cull::execute(graph::PassContext& context, const Params& params, const Port
   for (render::DrawList* list : lists.all()) list->objects.clear();
   for (const std::uint32_t index : visible_) {
     const scene::Material& material = scene.materials[scene.objects[index].material];
+    if (isMirror(material)) {
+      lists.mirrors.objects.push_back(index);
+      continue;
+    }
     switch (material.alphaMode) {
       case scene::AlphaMode::Opaque:
         lists.opaque.objects.push_back(index);
@@ -82,6 +86,7 @@ void Cull::execute(graph::PassContext& context, const Params& params, const Port
   if (params.sort) {
     sortForState(gpuScene, lists.opaque.objects);
     sortForState(gpuScene, lists.alphaTested.objects);
+    sortForState(gpuScene, lists.mirrors.objects);
   }
   sortBackToFront(gpuScene, ports.view->view, lists.transparent.objects);
   for (render::DrawList* list : lists.all()) finishList(context.device, gpuScene, *list);

@@ -5,8 +5,7 @@ namespace lucerna::passes {
 using gpu::Format;
 
 void Forward::describe(graph::PassInfo<Params, Ports>& d) {
-  d.pass("Forward",
-         "Draws opaque and alpha-tested objects, shading each fragment with all lights.");
+  d.pass("Forward", "Draws all but translucent objects, shading each fragment with all lights.");
   d.needs(gpu::kFeatureMultiDrawIndirect);
   d.param("ambient", &Params::ambient).range(0, 100).help("Factor on the scene's ambient light.");
   d.param("backFaces", &Params::backFaces)
@@ -14,7 +13,7 @@ void Forward::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("scene", &Ports::scene).help("Geometry and materials.");
   d.read("view", &Ports::view).help("The view to draw from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
-  d.read("drawLists", &Ports::drawLists).help("What to draw: its opaque and alpha-tested lists.");
+  d.read("drawLists", &Ports::drawLists).help("What to draw: all but its transparent list.");
   d.write("depth", &Ports::depth)
       .texture(Format::Depth32F)
       .sizeOfOutput()
@@ -27,12 +26,6 @@ void Forward::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Linear radiance, emission included; black where nothing was drawn.");
 }
 
-Forward::Forward(gpu::Device& device)
-    : opaque_(device.program({.vertex = "render/object.vert", .fragment = "render/forward.frag"})),
-      alphaTested_(device.program({.vertex = "render/object.vert",
-                                   .fragment = "render/forward.frag",
-                                   .defines = {{"ALPHA_TEST", "1"}}})) {}
-
 void Forward::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   gpu::Rendering rendering = context.device.render({
       .colors = {{ports.color.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)}},
@@ -41,15 +34,13 @@ void Forward::execute(graph::PassContext& context, const Params& params, const P
   const gpu::RenderState state{.depthTest = true,
                                .depthWrite = true,
                                .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
-  const render::DrawLists& lists = *ports.drawLists;
-  const auto draw = [&](const render::DrawList& list, const gpu::Program& program) {
-    rendering.use(program, state);
-    program.set("ambientScale", params.ambient);
-    rendering.buffer("LightBlock", ports.lights->block);
-    drawList(rendering, *ports.scene, list, program, state, ports.view->block);
-  };
-  draw(lists.opaque, *opaque_);
-  draw(lists.alphaTested, *alphaTested_);
+  const render::ForwardShading::Inputs inputs{.scene = *ports.scene,
+                                              .view = *ports.view,
+                                              .lights = *ports.lights,
+                                              .ambient = params.ambient,
+                                              .time = context.time};
+  for (const render::DrawList* list : ports.drawLists->solid())
+    shading_.draw(rendering, inputs, *list, state);
 }
 
 }  // namespace lucerna::passes

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "graph/pass_info.hpp"
-#include "render/draw_list.hpp"
-#include "render/light_list.hpp"
-#include "render/view_data.hpp"
+#include "render/forward_shading.hpp"
 
 namespace lucerna::passes {
 
@@ -23,11 +21,11 @@ class Forward {
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit Forward(gpu::Device& device);
+  explicit Forward(gpu::Device& device) : shading_(device) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr opaque_, alphaTested_;
+  render::ForwardShading shading_;
 };
 
 }  // namespace lucerna::passes

@@ -5,14 +5,13 @@ namespace lucerna::passes {
 using gpu::Format;
 
 void GBuffer::describe(graph::PassInfo<Params, Ports>& d) {
-  d.pass("GBuffer",
-         "Draws geometry and materials of opaque and alpha-tested objects into targets.");
+  d.pass("GBuffer", "Draws geometry and materials of all but translucent objects into targets.");
   d.needs(gpu::kFeatureMultiDrawIndirect);
   d.param("backFaces", &Params::backFaces)
       .help("Draw the back faces of single-sided materials, too.");
   d.read("scene", &Ports::scene).help("Geometry and materials.");
   d.read("view", &Ports::view).help("The view to draw from.");
-  d.read("drawLists", &Ports::drawLists).help("What to draw: its opaque and alpha-tested lists.");
+  d.read("drawLists", &Ports::drawLists).help("What to draw: all but its transparent list.");
   d.write("depth", &Ports::depth)
       .texture(Format::Depth32F)
       .sizeOfOutput()
@@ -49,13 +48,6 @@ void GBuffer::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Radiance that the surface sends out by itself.");
 }
 
-GBuffer::GBuffer(gpu::Device& device)
-    : opaque_(device.program(
-          {.vertex = "render/object.vert", .fragment = "passes/gbuffer/gbuffer.frag"})),
-      alphaTested_(device.program({.vertex = "render/object.vert",
-                                   .fragment = "passes/gbuffer/gbuffer.frag",
-                                   .defines = {{"ALPHA_TEST", "1"}}})) {}
-
 void GBuffer::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   gpu::Rendering rendering = context.device.render({
       .colors = {{ports.normal.get(), gpu::Load::Clear, vec4(0.5f)},
@@ -68,9 +60,10 @@ void GBuffer::execute(graph::PassContext& context, const Params& params, const P
   const gpu::RenderState state{.depthTest = true,
                                .depthWrite = true,
                                .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
-  const gpu::Buffer& view = ports.view->block;
-  drawList(rendering, *ports.scene, ports.drawLists->opaque, *opaque_, state, view);
-  drawList(rendering, *ports.scene, ports.drawLists->alphaTested, *alphaTested_, state, view);
+  rendering.buffer("ViewBlock", ports.view->block);
+  const auto programOf = [&](const scene::Material& material) { return &programs_.of(material); };
+  for (const render::DrawList* list : ports.drawLists->solid())
+    drawList(rendering, *ports.scene, *list, state, programOf);
 }
 
 }  // namespace lucerna::passes

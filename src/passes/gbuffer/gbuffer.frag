@@ -1,6 +1,8 @@
 // Stores a surface in the G-buffer instead of shading it.
-//   ALPHA_TEST  discard below the material's cutoff
+//   ALPHA_TEST           discard below the material's cutoff
+//   TEXTURE_ENVIRONMENT  see render/texture_environment.glsl
 // variant: ALPHA_TEST=1
+// variant: TEXTURE_ENVIRONMENT=1
 #include "render/gbuffer.glsl"
 #include "render/object_surface.glsl"
 
@@ -12,10 +14,9 @@ layout(location = 4) out vec3 emissive;
 
 void main() {
   vec4 baseColor = materialColor();
-#ifdef ALPHA_TEST
-  if (baseColor.a < material.transmission.w) discard;
-#endif
+  testAlpha(baseColor.a);
   Surface s = surfaceOf(baseColor);
+  if (material.codes.x > 0.5) s.type = kTypeCustom;
   normal = encodeNormal(normalize(mat3(view.viewFromWorld) * s.normalW));
   albedo = vec4(s.albedo, 1.0);
   specular = vec4(s.specular, s.occlusion);

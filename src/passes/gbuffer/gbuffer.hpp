@@ -3,6 +3,7 @@
 
 #include "graph/pass_info.hpp"
 #include "render/draw_list.hpp"
+#include "render/object_programs.hpp"
 #include "render/view_data.hpp"
 
 namespace lucerna::passes {
@@ -20,11 +21,11 @@ class GBuffer {
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit GBuffer(gpu::Device& device);
+  explicit GBuffer(gpu::Device& device) : programs_(device, "passes/gbuffer/gbuffer.frag") {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr opaque_, alphaTested_;
+  render::ObjectPrograms programs_;
 };
 
 }  // namespace lucerna::passes

@@ -37,7 +37,7 @@ TEST(GBuffer, TellsMaterialModelsAndNothingApart) {
   std::set<int> types;
   for (std::size_t i = 0; i < texels.as<std::uint8_t>().size(); i += 4)
     types.insert(texels.as<std::uint8_t>()[i]);
-  EXPECT_EQ(types, (std::set<int>{0, 1, 2}));
+  EXPECT_EQ(types, (std::set<int>{0, 1, 2, 3}));
 }
 
 // Depth as drawn, against rays through the pixels' centres: half a pixel or a wrong window shows.

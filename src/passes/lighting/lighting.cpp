@@ -30,11 +30,15 @@ void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
       .texture(Format::R11G11B10Float)
       .sameSizeAs("depth")
       .help("Radiance.");
-  d.write("color", &Ports::color)
+  d.update("color", &Ports::color)
       .texture(Format::Rgba16Float)
       .sizeOf("depth")
+      .sameSizeAs("depth")
+      .optional()
       .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
-      .help("Linear radiance, emission included; black where nothing was drawn.");
+      .help(
+          "Linear radiance, emission included. Pixels of custom shaders and those where nothing "
+          "was drawn stay as they were; black if nothing was there.");
 }
 
 Lighting::Lighting(gpu::Device& device)
@@ -43,7 +47,8 @@ Lighting::Lighting(gpu::Device& device)
 
 void Lighting::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   gpu::Rendering rendering = context.device.render({
-      .colors = {{ports.color.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)}},
+      .colors = {{ports.color.get(), ports.color.isNew() ? gpu::Load::Clear : gpu::Load::Keep,
+                  vec4(0.f, 0.f, 0.f, 1.f)}},
       .depth = {ports.depth.get()},
   });
   // The triangle lies at depth 0: it passes where something nearer was drawn, so that empty pixels

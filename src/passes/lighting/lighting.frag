@@ -6,6 +6,6 @@ layout(location = 0) out vec4 color;
 
 void main() {
   Surface s = readSurface(ivec2(gl_FragCoord.xy));
-  // A custom shader draws its pixels itself.
-  color = vec4(s.type == kTypeCustom ? s.emissive : shade(s), 1.0);
+  if (s.type == kTypeCustom) discard;  // CustomShaders draws it, before or after
+  color = vec4(shade(s), 1.0);
 }

@@ -16,7 +16,7 @@ class Lighting {
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
     graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive;
-    graph::Out<gpu::Texture> color;
+    graph::InOut<gpu::Texture> color;
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);

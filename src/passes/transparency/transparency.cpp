@@ -24,11 +24,6 @@ void Transparency::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Linear radiance.");
 }
 
-Transparency::Transparency(gpu::Device& device)
-    : program_(device.program({.vertex = "render/object.vert",
-                               .fragment = "render/forward.frag",
-                               .defines = {{"TRANSPARENT", "1"}}})) {}
-
 void Transparency::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   const render::DrawList& list = ports.drawLists->transparent;
   if (list.objects.empty()) return;
@@ -37,10 +32,13 @@ void Transparency::execute(graph::PassContext& context, const Params& params, co
   const gpu::RenderState state{.depthTest = true,
                                .blend = gpu::Blend::Transmit,
                                .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
-  rendering.use(*program_, state);
-  program_->set("ambientScale", params.ambient);
-  rendering.buffer("LightBlock", ports.lights->block);
-  drawList(rendering, *ports.scene, list, *program_, state, ports.view->block);
+  shading_.draw(rendering,
+                {.scene = *ports.scene,
+                 .view = *ports.view,
+                 .lights = *ports.lights,
+                 .ambient = params.ambient,
+                 .time = context.time},
+                list, state);
 }
 
 }  // namespace lucerna::passes

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "graph/pass_info.hpp"
-#include "render/draw_list.hpp"
-#include "render/light_list.hpp"
-#include "render/view_data.hpp"
+#include "render/forward_shading.hpp"
 
 namespace lucerna::passes {
 
@@ -24,11 +22,11 @@ class Transparency {
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit Transparency(gpu::Device& device);
+  explicit Transparency(gpu::Device& device) : shading_(device, {{"TRANSPARENT", "1"}}) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr program_;
+  render::ForwardShading shading_;
 };
 
 }  // namespace lucerna::passes

@@ -31,6 +31,14 @@ std::uint32_t addTexture(Scene& scene, std::string name, std::shared_ptr<const I
   return static_cast<std::uint32_t>(scene.textures.size() - 1);
 }
 
+std::uint32_t addCubeMap(Scene& scene, std::string name,
+                         std::vector<std::shared_ptr<const Image>> faces) {
+  const std::uint32_t texture = addTexture(scene, std::move(name), faces.at(0));
+  scene.textures[texture].faces = std::move(faces);
+  scene.textures[texture].wrapS = scene.textures[texture].wrapT = Wrap::ClampToEdge;
+  return texture;
+}
+
 std::uint32_t addMaterial(Scene& scene, Material material) {
   scene.materials.push_back(std::move(material));
   return static_cast<std::uint32_t>(scene.materials.size() - 1);

@@ -17,6 +17,8 @@ quat lookAlong(vec3 direction);
 
 std::uint32_t addMesh(Scene& scene, Mesh mesh);
 std::uint32_t addTexture(Scene& scene, std::string name, std::shared_ptr<const Image> image);
+std::uint32_t addCubeMap(Scene& scene, std::string name,
+                         std::vector<std::shared_ptr<const Image>> faces);
 std::uint32_t addMaterial(Scene& scene, Material material);
 
 // A dielectric metallic-roughness material.

@@ -10,26 +10,6 @@ namespace {
 // Texels of a face's side. By night a star is two pixels wide at 720 rows; by day nothing is small.
 constexpr int kNightSize = 768, kDaySize = 128;
 
-// The direction of a place on a face: each is what a camera at the origin sees along its axis,
-// upright; up and down are seen by tilting the head from -z.
-vec3 faceDirection(int face, vec2 p) {
-  const float s = 2 * p.x - 1, t = 2 * p.y - 1;
-  switch (face) {
-    case 0:
-      return glm::normalize(vec3(1, -t, s));
-    case 1:
-      return glm::normalize(vec3(-1, -t, -s));
-    case 2:
-      return glm::normalize(vec3(s, 1, -t));
-    case 3:
-      return glm::normalize(vec3(s, -1, t));
-    case 4:
-      return glm::normalize(vec3(-s, -t, 1));
-    default:
-      return glm::normalize(vec3(s, -t, -1));
-  }
-}
-
 constexpr float kMoonRadius = 0.0215f;      // rad, several times the real one, as painters have it
 constexpr float kTexel = 2.f / kNightSize;  // of a face's middle, rad
 
@@ -95,17 +75,15 @@ vec3 dayColor(vec3 d) {
 }  // namespace
 
 void addSky(Scene& scene, bool day, std::uint32_t seed) {
-  scene.background.kind = BackgroundKind::CubeMap;
-  for (int face = 0; face < 6; ++face) {
-    const int size = day ? kDaySize : kNightSize;
-    const auto picture = paint(size, size, [=](vec2 p) {
+  const int size = day ? kDaySize : kNightSize;
+  std::vector<std::shared_ptr<const Image>> faces;
+  for (int face = 0; face < 6; ++face)
+    faces.push_back(paint(size, size, [=](vec2 p) {
       const vec3 d = faceDirection(face, p);
       return vec4(day ? dayColor(d) : nightColor(face, p, d, seed), 1);
-    });
-    const std::uint32_t texture = addTexture(scene, fmt::format("sky {}", face), picture);
-    scene.textures[texture].wrapS = scene.textures[texture].wrapT = Wrap::ClampToEdge;
-    scene.background.faces[static_cast<std::size_t>(face)] = texture;
-  }
+    }));
+  scene.background.kind = BackgroundKind::CubeMap;
+  scene.background.texture = addCubeMap(scene, "sky", std::move(faces));
 }
 
 }  // namespace lucerna::scene::builtin::city

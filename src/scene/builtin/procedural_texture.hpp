@@ -69,6 +69,25 @@ std::shared_ptr<const Image> paint(int width, int height, const Color& color) {
   return image;
 }
 
+// The direction of a place on a face of a cube map (scene::Texture::faces).
+inline vec3 faceDirection(int face, vec2 p) {
+  const float s = 2 * p.x - 1, t = 2 * p.y - 1;
+  switch (face) {
+    case 0:
+      return glm::normalize(vec3(1, -t, s));
+    case 1:
+      return glm::normalize(vec3(-1, -t, -s));
+    case 2:
+      return glm::normalize(vec3(s, 1, -t));
+    case 3:
+      return glm::normalize(vec3(s, -1, t));
+    case 4:
+      return glm::normalize(vec3(-s, -t, 1));
+    default:
+      return glm::normalize(vec3(s, -t, -1));
+  }
+}
+
 // The tangent-space normal map of a tileable relief: height(p) in metres on a tile of the given
 // side length (m).
 template <typename Height>

@@ -1,0 +1,115 @@
+// Pictures of a scene JSON, and how materials use them.
+#include "core/text.hpp"
+#include "scene/scene_json_parts.hpp"
+#include "scene/texture_store.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+bool isFloat(const Image& image) {
+  return image.type() == ComponentType::F32 || image.type() == ComponentType::Half;
+}
+
+// Square, and of the first face's size and kind.
+bool isFaceLike(const Image& face, const Image& first) {
+  return face.width() == face.height() && face.width() == first.width() &&
+         isFloat(face) == isFloat(first);
+}
+
+}  // namespace
+
+Wrap readWrap(const JsonValue& from) {
+  int wrap = 0;
+  from.readChoice("wrap", {"repeat", "mirror", "clamp"}, wrap);
+  return static_cast<Wrap>(wrap);
+}
+
+bool JsonPictures::mayRead(const JsonValue& file) const {
+  if (load_.outsideFiles != OutsideFiles::Refuse) return true;
+  file.wrong("nothing: no other file may be read here");
+  return false;
+}
+
+std::shared_ptr<const Image> JsonPictures::load(const JsonValue& file, const std::string& name) {
+  if (!mayRead(file)) return nullptr;
+  TextureStore store;
+  store.addFile(folder_ / name);
+  std::vector<std::string> problems;
+  std::shared_ptr<const Image> image = store.load(problems).front();
+  for (const std::string& problem : problems)
+    file.fault(problem + "; wanted a picture (PNG, JPEG, TGA, BMP, HDR or EXR)");
+  return problems.empty() ? image : nullptr;
+}
+
+std::uint32_t JsonPictures::add(const JsonValue& file, Wrap wrap) {
+  Texture texture;
+  if (!file.text(texture.name)) return kNone;
+  const std::string key = fmt::format("{}\n{}", texture.name, static_cast<int>(wrap));
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  texture.image = load(file, texture.name);
+  if (!texture.image) return kNone;
+  texture.wrapS = texture.wrapT = wrap;
+  return known_[key] = addTexture(std::move(texture));
+}
+
+std::uint32_t JsonPictures::addCube(const JsonValue& sixFiles) {
+  const std::vector<JsonValue> files = sixFiles.elements();
+  if (files.size() != 6) {
+    sixFiles.wrong("six pictures: +x, -x, +y, -y, +z, -z");
+    return kNone;
+  }
+  std::vector<std::string> names(6);
+  for (std::size_t i = 0; i < 6; ++i)
+    if (!files[i].text(names[i])) return kNone;
+  const std::string key = join(names, "\n");
+  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  Texture texture;
+  texture.name = names[0];
+  for (std::size_t i = 0; i < 6; ++i) {
+    const auto face = load(files[i], names[i]);
+    if (!face) return kNone;
+    texture.faces.push_back(face);
+    if (isFaceLike(*face, *texture.faces.front())) continue;
+    files[i].wrong(fmt::format("a picture of {} x {}", face->width(), face->height()),
+                   "six squares of one size, all with 8 bits or all float");
+    return kNone;
+  }
+  texture.image = texture.faces.front();
+  texture.wrapS = texture.wrapT = Wrap::ClampToEdge;
+  return known_[key] = addTexture(std::move(texture));
+}
+
+std::uint32_t JsonPictures::addTexture(Texture texture) {
+  load_.textures.push_back(std::move(texture));
+  return static_cast<std::uint32_t>(load_.textures.size() - 1);
+}
+
+void readSlot(const JsonValue& from, JsonPictures& pictures, TextureSlot& slot) {
+  if (from.has("file") && from.has("faces"))
+    return from.wrong("both \"file\" and \"faces\"", "one of them");
+  if (from.has("file")) slot.texture = pictures.add(from.at("file"), readWrap(from));
+  if (from.has("faces")) {
+    slot.texture = pictures.addCube(from.at("faces"));
+    slot.coordinates = Coordinates::Reflection;
+  }
+  if (slot.texture == kNone) {
+    if (!from.has("file") && !from.has("faces"))
+      from.wrong("no texture of the material there", "\"file\" or six \"faces\"");
+    return;
+  }
+  int choice = 0;
+  if (from.readChoice("coordinates",
+                      {"mesh", "object-linear", "eye-linear", "sphere-map", "reflection"}, choice))
+    slot.coordinates = static_cast<Coordinates>(choice);
+  from.read("planeS", slot.planeS);
+  from.read("planeT", slot.planeT);
+  from.read("offset", slot.offset);
+  from.read("scale", slot.scale);
+  from.readDegrees("rotation", slot.rotation, {-360.f, 360.f});
+  const bool cube = pictures.isCube(slot.texture);
+  if (cube != (slot.coordinates == Coordinates::Reflection))
+    from.wrong(cube ? "six \"faces\"" : "\"coordinates\": \"reflection\"",
+               cube ? "\"coordinates\": \"reflection\" with them" : "six \"faces\" for it");
+}
+
+}  // namespace lucerna::scene
