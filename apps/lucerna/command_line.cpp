@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "core/text.hpp"
+#include "scene/builtin/builtin.hpp"
 
 namespace lucerna::cli {
 namespace {
@@ -51,6 +52,10 @@ std::string describeFault(const CLI::ParseError& fault) {
 }
 
 }  // namespace
+
+std::string sceneHelp() {
+  return fmt::format("file, or builtin:NAME?key=value with NAME {}", join(scene::builtinNames()));
+}
 
 const CLI::App& chosenCommand(const CLI::App& app) {
   const auto subcommands = app.get_subcommands();

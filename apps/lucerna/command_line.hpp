@@ -53,6 +53,9 @@ T orUsageError(const std::string& option, Result<T> result) {
   return std::move(result).value();
 }
 
+// What the argument SCENE may be.
+std::string sceneHelp();
+
 // The innermost subcommand that was chosen, or the program itself.
 const CLI::App& chosenCommand(const CLI::App& app);
 

@@ -122,7 +122,7 @@ void addInfo(CommandLine& line) {
   auto path = std::make_shared<std::string>();
   CLI::App* command = addCommand(line, line.app, "info", "what a scene contains",
                                  [&line, path] { return info(*path, line.talk.json); });
-  command->add_option("SCENE", *path, "file, or builtin:NAME?key=value")->required();
+  command->add_option("SCENE", *path, sceneHelp())->required();
 }
 
 }  // namespace lucerna::cli

@@ -143,8 +143,7 @@ void addRender(CommandLine& line) {
   CLI::App* command =
       addCommand(line, line.app, "render", "render a scene into pictures or a video",
                  [&line, options] { return render(*options, line.talk.json); });
-  command->add_option("SCENE", options->render.scene, "file, or builtin:NAME?key=value")
-      ->required();
+  command->add_option("SCENE", options->render.scene, sceneHelp())->required();
   command
       ->add_option("-o,--output", options->output.path,
                    "out.png, .exr, .hdr, .mp4, .mkv or frame-%04d.png")

@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 
+#include "core/text.hpp"
 #include "scene/append.hpp"
 #include "scene/builtin/builtin.hpp"
 #include "scene/gltf/gltf_reader.hpp"
@@ -27,9 +28,8 @@ Status checkReadable(const fs::path& path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (status.type() == fs::file_type::not_found)
-    return error(ErrorKind::Input,
-                 "{}: no such file; wanted a scene file or builtin:NAME (builtin:atrium, ...)",
-                 path.string());
+    return error(ErrorKind::Input, "{}: no such file; wanted a scene file or builtin:NAME ({})",
+                 path.string(), join(builtinNames()));
   if (status.type() == fs::file_type::directory)
     return error(ErrorKind::Input, "{}: is a folder; name the scene file inside it", path.string());
   return {};

@@ -34,7 +34,10 @@ std::uint64_t hashOf(const Scene& scene) {
     addHash(hash, mesh.texCoords[0]);
     addHash(hash, mesh.indices);
   }
-  for (const Texture& texture : scene.textures) hash = hashBytes(texture.image->bytes(), hash);
+  for (const Texture& texture : scene.textures) {
+    hash = hashBytes(texture.image->bytes(), hash);
+    for (const auto& face : texture.faces) hash = hashBytes(face->bytes(), hash);
+  }
   for (const Node& node : scene.nodes)
     hash = hashBytes(std::as_bytes(std::span(&node.worldFromNode, 1)), hash);
   for (const Light& light : scene.lights)
@@ -74,6 +77,8 @@ void expectSound(const Scene& scene) {
     expectSlot(scene, material.albedoTexture);
     expectSlot(scene, material.emissiveTexture);
     expectSlot(scene, material.normalTexture);
+    for (const CustomShader::Picture& picture : material.shader.textures)
+      ASSERT_LT(picture.texture, scene.textures.size());
   }
   for (const Texture& texture : scene.textures) ASSERT_NE(texture.image, nullptr);
   for (const Object& object : scene.objects) {
@@ -103,6 +108,9 @@ TEST(Builtin, RefusesWhatItDoesNotKnow) {
   EXPECT_THAT(message("builtin:nightcity?blocks=2"), HasSubstr("6 to 64"));
   EXPECT_THAT(message("builtin:nightcity?sun=95,0"), HasSubstr("two numbers"));
   EXPECT_THAT(message("builtin:nightcity?sun=nan,0"), HasSubstr("two numbers"));
+  EXPECT_THAT(message("builtin:penumbra?case=fense"), HasSubstr("did you mean 'fence'"));
+  EXPECT_THAT(message("builtin:penumbra?case=fence&k=4"), HasSubstr("unknown key 'k'"));
+  EXPECT_THAT(message("builtin:penumbra?case=overlap&k=33"), HasSubstr("1 to 32"));
   const Result<Scene> several = makeBuiltin("builtin:atrium?ligths=3&kind=x");
   ASSERT_FALSE(several);
   EXPECT_EQ(several.error().kind, ErrorKind::Input);
@@ -112,7 +120,8 @@ TEST(Builtin, RefusesWhatItDoesNotKnow) {
 
 TEST(Builtin, TheSameBitsForAnyNumberOfThreads) {
   const int before = threadCount();
-  for (const char* spec : {"builtin:atrium?moving=0.1", "builtin:nightcity?jitter=1"}) {
+  for (const char* spec : {"builtin:atrium?moving=0.1", "builtin:nightcity?jitter=1",
+                           "builtin:materials", "builtin:mirrors"}) {
     setThreadCount(1);
     const std::uint64_t one = hashOf(make(spec));
     setThreadCount(4);
@@ -299,6 +308,124 @@ TEST(NightCity, FortyBlocksHaveMillionsOfTrianglesInLittleMemory) {
   for (const Mesh& mesh : scene.meshes)
     bytes += mesh.positions.size() * 32 + mesh.indices.size() * 4;
   EXPECT_LT(bytes, 64u << 20);
+}
+
+TEST(Materials, FiveCubesStandInTheThesisOrder) {
+  const Scene scene = make("builtin:materials");
+  expectSound(scene);
+  std::vector<std::pair<float, std::string>> cubes;  // by x
+  for (const Object& object : scene.objects) {
+    const std::string& name = scene.materials[object.material].name;
+    if (name == "floor" || name == "plinth") continue;
+    const Node& node = scene.nodes[object.node];
+    const bool pane = node.name.starts_with("side");
+    cubes.emplace_back((pane ? scene.nodes[node.parent] : node).worldFromNode[3].x, name);
+  }
+  std::sort(cubes.begin(), cubes.end());
+  cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+  std::vector<std::string> names;
+  for (const auto& [x, name] : cubes) names.push_back(name);
+  EXPECT_THAT(names, testing::ElementsAre("lattice", "chrome", "glass", "waves", "lava"));
+  const auto material = [&](const char* name) {
+    return *std::find_if(scene.materials.begin(), scene.materials.end(),
+                         [&](const Material& m) { return m.name == name; });
+  };
+  EXPECT_EQ(material("lattice").alphaMode, AlphaMode::Blend);
+  EXPECT_EQ(material("lattice").albedo.w, 1.f) << "its opacity is the texture's";
+  EXPECT_EQ(material("chrome").emissiveTexture.coordinates, Coordinates::Reflection);
+  EXPECT_LT(material("glass").albedo.w, 1.f);
+  EXPECT_EQ(material("waves").albedoTexture.coordinates, Coordinates::EyeLinear);
+  EXPECT_TRUE(material("lava").shader.used());
+}
+
+// The objects whose material is a mirror, with their corners in the world.
+std::vector<std::pair<const Material*, std::vector<vec3>>> mirrorsOf(const Scene& scene) {
+  std::vector<std::pair<const Material*, std::vector<vec3>>> mirrors;
+  for (const Object& object : scene.objects) {
+    const Material& material = scene.materials[object.material];
+    if (!isMirror(material)) continue;
+    std::vector<vec3> corners;
+    for (const vec3& position : scene.meshes[object.mesh].positions)
+      corners.push_back(vec3(scene.nodes[object.node].worldFromNode * vec4(position, 1)));
+    mirrors.emplace_back(&material, corners);
+  }
+  return mirrors;
+}
+
+vec3 normalOf(const std::vector<vec3>& corners) {
+  return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+}
+
+TEST(Mirrors, ArePlanarTwoFaceEachOtherAndOneReflectsInPart) {
+  const Scene scene = make("builtin:mirrors");
+  expectSound(scene);
+  const auto mirrors = mirrorsOf(scene);
+  EXPECT_EQ(mirrors.size(), 5u);
+  int facing = 0, partial = 0;
+  for (const auto& [material, corners] : mirrors) {
+    const vec3 n = normalOf(corners);
+    for (const vec3& corner : corners) EXPECT_NEAR(glm::dot(n, corner - corners[0]), 0, 1e-5);
+    partial += material->reflectivity < 0.5f;
+    for (const auto& [other, otherCorners] : mirrors) {
+      const vec3 between = otherCorners[0] - corners[0];
+      facing += glm::dot(n, normalOf(otherCorners)) < -0.999f && glm::dot(between, n) > 1;
+    }
+  }
+  EXPECT_EQ(facing, 2) << "each of one pair";
+  EXPECT_EQ(partial, 1);
+  EXPECT_EQ(mirrorsOf(make("builtin:mirrors?single=1")).size(), 1u);
+}
+
+TEST(Mirrors, TheTwinIsTheRoomsMirrorImageWithLightsOfItsOwn) {
+  const Scene room = make("builtin:mirrors?single=1"), twin = make("builtin:mirrors?twin=1");
+  expectSound(room);
+  EXPECT_TRUE(mirrorsOf(twin).empty());
+  const std::size_t half = twin.objects.size() / 2;
+  ASSERT_EQ(half, room.objects.size() - 1) << "the main mirror is an opening";
+  for (std::size_t i = 0; i < half; ++i) {
+    const Object &a = twin.objects[i], &b = twin.objects[half + i];
+    ASSERT_EQ(a.mesh, b.mesh);
+    ASSERT_EQ(a.material, b.material);
+    EXPECT_NEAR(a.boundsW.min.z + b.boundsW.max.z, -6, 1e-4);
+    EXPECT_NEAR(a.boundsW.min.x, b.boundsW.min.x, 1e-4);
+    EXPECT_GE(a.boundsW.min.z, -3 - 1e-4) << twin.nodes[a.node].name;
+  }
+  const std::vector<PlacedLight> lights = placeLights(twin);
+  ASSERT_EQ(lights.size(), 2 * room.lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const PlacedLight& light = lights[i];
+    const float side = i < lights.size() / 2 ? 1.f : -1.f;  // of the plane z = -3
+    EXPECT_GT(side * (light.positionW.z + 3), 0);
+    // Neither its range nor its cone crosses the plane.
+    const bool near = side * (light.positionW.z + 3) > light.reach;
+    const bool away =
+        light.kind == LightKind::Spot &&
+        std::acos(light.cosOuter) + std::acos(side * light.directionW.z) < glm::half_pi<float>();
+    EXPECT_TRUE(near || away) << twin.lights[light.light].name;
+  }
+}
+
+TEST(Cornell, HasTheMeasuresOfTheSharedFile) {
+  const Scene scene = make("builtin:cornell");
+  expectSound(scene);
+  EXPECT_EQ(scene.triangleCount(), 36u) << "as CornellBox-Original.obj";
+  const Aabb box = scene.boundsW();
+  EXPECT_LT(glm::distance(box.min, vec3(-1.02f, 0, -1.04f)), 1e-5f);
+  EXPECT_LT(glm::distance(box.max, vec3(1, 1.99f, 0.99f)), 1e-5f);
+  EXPECT_EQ(make("builtin:cornell?boxes=0").triangleCount(), 12u);
+}
+
+// The far field of a Lambert surface of radiance L and area A: L A cos(angle to its normal).
+TEST(Cornell, TheLightGivesWhatTheLampsSurfaceSendsOut) {
+  const PlacedLight lamp = placeLights(make("builtin:cornell")).at(0);
+  const float area = 0.47f * 0.38f;
+  EXPECT_NEAR(lamp.intensity.x, 17 * area, 1e-4);
+  EXPECT_NEAR(lamp.intensity.y, 12 * area, 1e-4);
+  EXPECT_NEAR(lamp.intensity.z, 4 * area, 1e-4);
+  EXPECT_NEAR(glm::pi<float>() * lamp.radius * lamp.radius, area, 1e-5);
+  for (const float degrees : {0.f, 30.f, 60.f, 85.f})
+    EXPECT_NEAR(coneFactor(lamp, std::cos(glm::radians(degrees))), std::cos(glm::radians(degrees)),
+                1e-4);
 }
 
 }  // namespace

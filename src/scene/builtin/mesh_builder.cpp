@@ -86,6 +86,45 @@ void MeshBuilder::box(vec3 a, vec3 b, float metresPerTile, unsigned faces) {
   face(kFaceFront, {a.x, a.y, b.z}, {b.x, a.y, b.z}, {b.x, b.y, b.z}, {a.x, b.y, b.z});
 }
 
+void MeshBuilder::roundedBox(vec3 low, vec3 high, float radius, int segments) {
+  const vec3 center = 0.5f * (low + high), half = 0.5f * (high - low), flat = half - radius;
+  CHECK(segments >= 1 && radius > 0 && glm::all(glm::greaterThan(flat, vec3(0))));
+  // Places across a side: the roundings in equal angles, the flat part in one piece.
+  const int count = 2 * segments + 2;
+  const auto across = [&](int i, float flatHalf) {
+    const int step = i <= segments ? segments - i : i - segments - 1;
+    const float angle = 0.25f * kPi * static_cast<float>(step) / static_cast<float>(segments);
+    const float place = flatHalf + radius * std::tan(angle);
+    return i <= segments ? -place : place;
+  };
+  for (int side = 0; side < 6; ++side) {
+    // v is up on the upright sides; u runs to the right of it seen from outside.
+    const int axis = side / 2, u = axis == 0 ? 2 : 0, v = axis == 1 ? 2 : 1;
+    const float sign = side % 2 == 0 ? 1.f : -1.f;
+    const float right = axis == 2 ? sign : -sign;
+    const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+    for (int row = 0; row < count; ++row)
+      for (int column = 0; column < count; ++column) {
+        vec3 place(0.f);
+        place[axis] = sign * half[axis];
+        place[u] = right * across(column, flat[u]);
+        place[v] = across(row, flat[v]);
+        const vec3 core = glm::clamp(place, -flat, flat);
+        const vec3 normal = glm::normalize(place - core);
+        const vec2 share(place[u] * right / half[u], place[v] / half[v]);
+        vertex(center + core + radius * normal, normal,
+               vec2(0.5f, 0.5f) + vec2(0.5f, -0.5f) * share);
+      }
+    for (int row = 0; row + 1 < count; ++row)
+      for (int column = 0; column + 1 < count; ++column) {
+        const auto a = first + static_cast<std::uint32_t>(row * count + column);
+        const auto above = a + static_cast<std::uint32_t>(count);
+        addTriangle(a, a + 1, above + 1);
+        addTriangle(a, above + 1, above);
+      }
+  }
+}
+
 void MeshBuilder::lathe(std::span<const vec2> profile, const Lathe& lathe) {
   CHECK(profile.size() >= 2 && lathe.segments >= 3);
   const std::vector<SegmentNormals> normals = profileNormals(profile, lathe.creaseCosine);

@@ -44,6 +44,9 @@ class MeshBuilder {
   // u runs from corner 0 to 1 and v from corner 0 to 3 (upwards in the picture), in metres.
   void quad(const std::array<vec3, 4>& corners, float metresPerTile = 1.f);
   void box(vec3 low, vec3 high, float metresPerTile = 1.f, unsigned faces = kAllFaces);
+  // A box whose edges and corners are rounded by `radius`, each edge in 2 * segments strips;
+  // texture coordinates run from 0 to 1 over each side.
+  void roundedBox(vec3 low, vec3 high, float radius, int segments);
   // A solid of revolution about +y. Profile: (radius, height), with the outside to the right of
   // the way along it (for an upright solid: from bottom to top).
   void lathe(std::span<const vec2> profile, const Lathe& lathe);
