@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
+#include <set>
 #include <tuple>
 
 #include "core/math/transform.hpp"
@@ -128,6 +130,22 @@ std::vector<float> morphWeights(const Scene& scene, const Deformation& deformati
 // Objects with equal keys have the same shape. The node counts only with a skin.
 using ShapeKey = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint32_t>;
 
+// Nothing if the object does not bend.
+std::optional<ShapeKey> shapeKey(const Object& object, const Mesh& mesh) {
+  const bool skinned = object.skin != kNone && mesh.influences.perVertex > 0;
+  if (!skinned && mesh.targets.empty()) return std::nullopt;
+  return ShapeKey{object.mesh, skinned ? object.skin : kNone,
+                  object.morphNode == kNone ? object.node : object.morphNode,
+                  skinned ? object.node : kNone};
+}
+
+std::uint64_t bytesOfStreams(const Mesh& mesh) {
+  return mesh.positions.size() * sizeof(vec3) + mesh.normals.size() * sizeof(vec3) +
+         mesh.tangents.size() * sizeof(vec4) + mesh.colors.size() * sizeof(u8vec4) +
+         (mesh.texCoords[0].size() + mesh.texCoords[1].size()) * sizeof(vec2) +
+         mesh.elements().size() * sizeof(std::uint32_t);
+}
+
 }  // namespace
 
 void bend(const Mesh& rest, std::span<const float> weights, std::span<const mat4> objectFromMesh,
@@ -143,23 +161,30 @@ void bend(const Mesh& rest, std::span<const float> weights, std::span<const mat4
   bent.bounds = boundsOf(bent);
 }
 
+std::uint64_t bytesOfBent(const Scene& scene, std::span<const Mesh> meshes) {
+  std::set<ShapeKey> known;
+  std::uint64_t bytes = 0;
+  for (const Object& object : scene.objects) {
+    const Mesh& mesh = meshes[object.mesh];
+    if (const auto key = shapeKey(object, mesh); key && known.insert(*key).second)
+      bytes += bytesOfStreams(mesh);
+  }
+  return bytes;
+}
+
 void addDeformations(Scene& scene) {
-  std::vector<bool> bends, drawnAtRest(scene.meshes.size(), false);
-  for (Object& object : scene.objects) {
-    const Mesh& mesh = scene.meshes[object.mesh];
-    if (mesh.influences.perVertex == 0) object.skin = kNone;
-    if (object.morphNode == kNone) object.morphNode = object.node;
-    bends.push_back(object.skin != kNone || !mesh.targets.empty());
-    if (!bends.back()) drawnAtRest[object.mesh] = true;
+  std::vector<std::optional<ShapeKey>> keys;
+  std::vector<bool> drawnAtRest(scene.meshes.size(), false);
+  for (const Object& object : scene.objects) {
+    keys.push_back(shapeKey(object, scene.meshes[object.mesh]));
+    if (!keys.back()) drawnAtRest[object.mesh] = true;
   }
   std::map<std::uint32_t, std::shared_ptr<const Mesh>> rests;
   std::map<ShapeKey, std::uint32_t> bentMeshes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-    if (!bends[i]) continue;
+    if (!keys[i]) continue;
     Object& object = scene.objects[i];
-    const bool skinned = object.skin != kNone;
-    const ShapeKey key{object.mesh, object.skin, object.morphNode, skinned ? object.node : kNone};
-    const auto [known, isNew] = bentMeshes.emplace(key, object.mesh);
+    const auto [known, isNew] = bentMeshes.emplace(*keys[i], object.mesh);
     if (isNew) {
       std::shared_ptr<const Mesh>& rest = rests[object.mesh];
       const bool first = !rest;
@@ -173,11 +198,12 @@ void addDeformations(Scene& scene) {
         scene.meshes.emplace_back();
       }
       scene.meshes[known->second] = std::move(bent);
+      const auto& [mesh, skin, morphNode, node] = *keys[i];
       scene.deformations.push_back({.rest = rest,
                                     .mesh = known->second,
                                     .node = object.node,
-                                    .skin = object.skin,
-                                    .morphNode = object.morphNode,
+                                    .skin = skin,
+                                    .morphNode = morphNode,
                                     .weights = {},
                                     .objectFromMesh = {}});
     }

@@ -57,6 +57,9 @@ struct Deformation {
 void bend(const Mesh& rest, std::span<const float> weights, std::span<const mat4> objectFromMesh,
           Mesh& bent);
 
+// What addDeformations() will take for bent meshes, of which each object that bends like no other
+// has one; `meshes` is what the scene's indices mean.
+std::uint64_t bytesOfBent(const Scene& scene, std::span<const Mesh> meshes);
 // Scene::deformations of the objects that bend. For complete().
 void addDeformations(Scene& scene);
 // Bends what needs it. World matrices are up to date. For updateTransforms().

@@ -75,7 +75,7 @@ Scene* includedScene(const JsonValue& file, const std::string& name, const fs::p
   const std::string key = builtin ? name : fs::weakly_canonical(folder / name, code).string();
   if (const auto known = load.included.find(key); known != load.included.end()) {
     if (!known->second) return nullptr;
-    load.repeatedBytes += bytesOf(*known->second);
+    load.repeatedBytes += bytesOf(*known->second) + bytesOfBent(*known->second, load.meshes);
     if (load.repeatedBytes <= kMaxRepeatedBytes) return &*known->second;
     file.fault(fmt::format("included again and again, scenes take more than {}; include fewer",
                            bytesText(kMaxRepeatedBytes)));
@@ -110,6 +110,7 @@ void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scen
     if (!part) continue;
     const auto [known, isNew] = materials.emplace(part, scene.materials.size());
     Scene copy = *part;
+    for (std::string& warning : copy.warnings) warning = node.name + ": " + warning;
     readAnimation(entry, copy);
     append(scene, std::move(copy), node, isNew ? std::nullopt : std::optional(known->second));
     part->warnings.clear();

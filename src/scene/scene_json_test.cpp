@@ -113,7 +113,8 @@ TEST_F(SceneJson, AFileIsReadOnceHoweverOftenItIsIncluded) {
   EXPECT_EQ(scene->materials.size(), atrium->materials.size() + 3);
   EXPECT_EQ(scene->objects.size(), 2 * atrium->objects.size() + 1001);
   EXPECT_EQ(scene->lights.size(), 2 * atrium->lights.size());
-  EXPECT_THAT(scene->warnings, testing::ElementsAre(HasSubstr("lost.mtl")));
+  EXPECT_THAT(scene->warnings,
+              testing::ElementsAre(AllOf(HasSubstr("lost.obj: "), HasSubstr("lost.mtl"))));
   EXPECT_EQ(vec3(scene->materials[scene->objects[0].material].albedo), vec3(1, 0, 0));
   EXPECT_EQ(vec3(scene->materials[scene->objects.back().material - 1].albedo), vec3(0.5f));
   EXPECT_FLOAT_EQ(scene->objects.back().boundsW.min.x, 499.f);

@@ -16,19 +16,6 @@ struct Shape {
 constexpr std::array<Shape, 7> kShapes{
     {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
 
-std::uint32_t bytesOf(ComponentType type) {
-  switch (type) {
-    case ComponentType::S8:
-    case ComponentType::U8:
-      return 1;
-    case ComponentType::S16:
-    case ComponentType::U16:
-      return 2;
-    default:
-      return 4;
-  }
-}
-
 std::uint32_t elementBytes(const Accessor& accessor) {
   return bytesOf(accessor.type) * static_cast<std::uint32_t>(accessor.components);
 }
@@ -159,6 +146,19 @@ void requireData(const Accessor& accessor) {
 }
 
 }  // namespace
+
+std::uint32_t bytesOf(ComponentType type) {
+  switch (type) {
+    case ComponentType::S8:
+    case ComponentType::U8:
+      return 1;
+    case ComponentType::S16:
+    case ComponentType::U16:
+      return 2;
+    default:
+      return 4;
+  }
+}
 
 std::vector<Accessor> readAccessors(Document& document) {
   std::vector<Accessor> accessors;

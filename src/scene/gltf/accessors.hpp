@@ -10,6 +10,8 @@ namespace lucerna::scene::gltf {
 
 enum class ComponentType { S8 = 5120, U8, S16, U16, U32 = 5125, F32 };
 
+std::uint32_t bytesOf(ComponentType type);
+
 struct Accessor {
   Place place;
   std::uint32_t count = 0;

@@ -184,7 +184,11 @@ void readBuffers(Document& document) {
   for (const Bytes& bytes : document.resources) document.bufferBytes += bytes.size();
   for (std::size_t i = 0; i < ranges.size(); ++i) {
     const auto& bytes = data[ranges[i].buffer];
-    if (!bytes.empty()) document.views[i].bytes = bytes.subspan(ranges[i].offset, ranges[i].length);
+    BufferView& view = document.views[i];
+    if (const auto packed = views[i].extension("EXT_meshopt_compression"))
+      unpackMeshopt(document, *packed, data, view);
+    else if (!bytes.empty())
+      view.bytes = bytes.subspan(ranges[i].offset, ranges[i].length);
   }
 }
 

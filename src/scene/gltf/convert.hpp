@@ -1,6 +1,9 @@
 // The parts of a checked glTF document become the parts of a Scene. Each function throws Fault.
 #pragma once
 
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "scene/gltf/accessors.hpp"
@@ -21,6 +24,12 @@ struct MeshParts {
   std::vector<float> weights;  // of the targets, where a node states none; empty: 0
 };
 
+// What a packed primitive (KHR_draco_mesh_compression) has instead of the accessors it names.
+struct UnpackedPrimitive {
+  Accessor indices;
+  std::map<std::string, Accessor> attributes;
+};
+
 // A glTF node with a mesh and a skin. Its joints may stand anywhere in the hierarchy, so its
 // objects are made when all nodes are there.
 struct SkinnedNode {
@@ -32,12 +41,17 @@ struct Context {
   Document& document;
   std::vector<Accessor> accessors;
   Scene& scene;
-  std::vector<MeshParts> meshes;          // by glTF mesh
+  std::map<std::string, std::optional<UnpackedPrimitive>> unpacked;  // by primitiveKey()
+  std::vector<MeshParts> meshes;                                     // by glTF mesh
   std::vector<std::uint32_t> sceneNodes;  // by glTF node; kNone outside the drawn scene
   std::vector<SkinnedNode> skinnedNodes;
   std::uint32_t defaultMaterial = kNone;  // made when the first primitive needs it
 };
 
+// Primitives with the same key have the same vertices and elements.
+std::string primitiveKey(const Place& primitive);
+// Context::unpacked: all packed primitives.
+void unpackPrimitives(Context& context);
 // Scene::meshes and Context::meshes: lists of triangles, lines or points of all primitives; equal
 // primitives share a mesh.
 void readMeshes(Context& context);

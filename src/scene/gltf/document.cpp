@@ -15,9 +15,9 @@ constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
 
 constexpr std::array kReadExtensions = {
-    "KHR_lights_punctual",     "KHR_texture_transform", "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",     "KHR_mesh_quantization", "KHR_materials_pbrSpecularGlossiness",
-    "EXT_mesh_gpu_instancing",
+    "KHR_lights_punctual",     "KHR_texture_transform",   "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",     "KHR_mesh_quantization",   "KHR_materials_pbrSpecularGlossiness",
+    "EXT_mesh_gpu_instancing", "EXT_meshopt_compression", "KHR_draco_mesh_compression",
 };
 
 // What to do about extensions that are not read, where there is something better to say.
@@ -30,6 +30,8 @@ constexpr std::array kAdvice = {
     Advice{"KHR_texture_basisu",
            "its textures are KTX2 files, which are not decoded: export the file again with PNG or "
            "JPEG textures"},
+    Advice{"KHR_meshopt_compression",
+           "export the file again with EXT_meshopt_compression, which is read, or without"},
     Advice{"EXT_texture_webp", kOtherPictures},
     Advice{"EXT_texture_avif", kOtherPictures},
     Advice{"MSFT_texture_dds", kOtherPictures},

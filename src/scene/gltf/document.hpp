@@ -52,6 +52,11 @@ void openDocument(Document& document, const std::filesystem::path& path, Bytes f
 // buffers. Throws Fault.
 void readBuffers(Document& document);
 
+// Unpacks a view that has EXT_meshopt_compression: `place` is that object, `buffers` what all
+// buffers hold. Throws Fault.
+void unpackMeshopt(Document& document, const Place& place,
+                   std::span<const std::span<const std::byte>> buffers, BufferView& view);
+
 // "data:MEDIATYPE;base64,..." gives its bytes; nothing if the text is no data URI. Throws Fault.
 std::optional<Bytes> decodeDataUri(const std::string& uri, const Place& place);
 // The file that a relative URI names: percent-decoded, in the folder of the document. Throws Fault,

@@ -246,5 +246,27 @@ TEST_F(GltfDeformFile, TargetsThatAreNotNumbersAddNothing) {
   EXPECT_EQ(scene->objects[0].boundsW.max, vec3(1, 1, 0));
 }
 
+TEST_F(GltfDeformFile, RefusesMoreBentCopiesThanTheFileMakesPlausible) {
+  constexpr int kVertices = 30000;
+  std::vector<float> positions;
+  for (int i = 0; i < kVertices; ++i)
+    for (const float value : {static_cast<float>(i), static_cast<float>(i % 2), 0.f})
+      positions.push_back(value);
+  json& primitive = root_["meshes"][0]["primitives"][0];
+  primitive["attributes"]["POSITION"] = floats(positions, "VEC3", 3);
+  root_["accessors"].push_back({{"componentType", 5126}, {"count", kVertices}, {"type", "VEC3"}});
+  primitive["targets"][0]["POSITION"] = root_["accessors"].size() - 1;  // zeros
+  const auto drawBy = [&](int nodes) {
+    for (int i = 0; i < nodes; ++i) {
+      root_["nodes"][i]["mesh"] = 0;
+      root_["scenes"][0]["nodes"][i] = i;
+    }
+  };
+  drawBy(10);
+  EXPECT_TRUE(read());
+  drawBy(1000);
+  expectRefused({"data that expands to"});
+}
+
 }  // namespace
 }  // namespace lucerna::scene

@@ -7,22 +7,6 @@ namespace lucerna::scene::gltf {
 
 namespace {
 
-// Primitives with the same key have the same triangles.
-std::string keyOf(const Place& primitive) {
-  std::string key = fmt::format("{} {}", primitive.integer("mode", 4, 0, 6),
-                                primitive.integer("indices", kNone, 0, kNone));
-  for (const auto& [name, accessor] : primitive.at("attributes").members()) {
-    key += fmt::format(" {} {}", name, accessor.integer(0, kNone));
-  }
-  for (const Place& target : primitive.elements("targets")) {
-    key += " target";
-    for (const auto& [name, accessor] : target.members()) {
-      key += fmt::format(" {} {}", name, accessor.integer(0, kNone));
-    }
-  }
-  return key;
-}
-
 // Its default weights. All primitives of a mesh have as many targets.
 void readWeights(const Place& mesh, const std::vector<Place>& primitives, MeshParts& parts) {
   for (std::size_t i = 0; i < primitives.size(); ++i) {
@@ -37,6 +21,27 @@ void readWeights(const Place& mesh, const std::vector<Place>& primitives, MeshPa
 }
 
 }  // namespace
+
+std::string primitiveKey(const Place& primitive) {
+  std::string key = fmt::format("{} {}", primitive.integer("mode", 4, 0, 6),
+                                primitive.integer("indices", kNone, 0, kNone));
+  for (const auto& [name, accessor] : primitive.at("attributes").members()) {
+    key += fmt::format(" {} {}", name, accessor.integer(0, kNone));
+  }
+  for (const Place& target : primitive.elements("targets")) {
+    key += " target";
+    for (const auto& [name, accessor] : target.members()) {
+      key += fmt::format(" {} {}", name, accessor.integer(0, kNone));
+    }
+  }
+  if (const auto packed = primitive.extension("KHR_draco_mesh_compression")) {
+    key += fmt::format(" packed {}", packed->integer("bufferView", kNone, 0, kNone));
+    for (const auto& [name, id] : packed->at("attributes").members()) {
+      key += fmt::format(" {} {}", name, id.integer(0, kNone));
+    }
+  }
+  return key;
+}
 
 std::vector<float> readMorphWeights(const Place& owner, std::size_t targets) {
   std::vector<float> weights;
@@ -58,7 +63,7 @@ void readMeshes(Context& context) {
     const auto primitives = mesh.at("primitives").elements();
     readWeights(mesh, primitives, made);
     for (std::size_t i = 0; i < primitives.size(); ++i) {
-      const auto [it, added] = known.emplace(keyOf(primitives[i]), kNone);
+      const auto [it, added] = known.emplace(primitiveKey(primitives[i]), kNone);
       if (added) {
         PrimitiveSource source(context, primitives[i],
                                primitives.size() > 1 ? fmt::format("{}:{}", name, i) : name);

@@ -165,7 +165,7 @@ void NodeReader::addMesh(const Place& place, std::uint32_t gltfMesh, std::uint32
   }
 }
 
-// EXT_mesh_gpu_instancing: a child node for every instance.
+// EXT_mesh_gpu_instancing: a child node without a name for every instance; draw lists merge them.
 void NodeReader::addInstances(const Place& instancing, std::uint32_t gltfMesh, std::uint32_t node) {
   const Place attributes = instancing.at("attributes");
   std::size_t count = 0;
@@ -194,7 +194,6 @@ void NodeReader::addInstances(const Place& instancing, std::uint32_t gltfMesh, s
   const auto scales = read("SCALE", 3);
   for (std::size_t i = 0; i < count; ++i) {
     Node instance;
-    instance.name = fmt::format("{} instance {}", context_.scene.nodes[node].name, i);
     instance.parent = node;
     if (!translations.empty()) instance.translation = glm::make_vec3(&translations[i * 3]);
     if (!scales.empty()) instance.scale = glm::make_vec3(&scales[i * 3]);

@@ -18,11 +18,14 @@ Result<Scene> readGltf(const std::filesystem::path& path, Bytes content,
   try {
     gltf::openDocument(document, path, std::move(content));
     gltf::readBuffers(document);
-    gltf::Context context{document, gltf::readAccessors(document), scene, {}, {}, {}};
+    gltf::Context context{document, gltf::readAccessors(document), scene, {}, {}, {}, {}};
     gltf::readMaterials(context);
+    gltf::unpackPrimitives(context);
     gltf::readMeshes(context);
     gltf::readNodes(context);
     gltf::readSkins(context);
+    // Every node bends a copy of its own.
+    document.spend(bytesOfBent(scene, scene.meshes), document.root());
     gltf::readAnimations(context);
   } catch (const gltf::Fault& fault) {
     return error(ErrorKind::Input, "{}: {}", path.string(), fault.message);

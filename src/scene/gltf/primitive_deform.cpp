@@ -28,7 +28,7 @@ MorphTarget readTarget(PrimitiveSource& source, const Place& place, const Mesh& 
   MorphTarget target;
   const auto read = [&](const char* name, auto& stream, std::initializer_list<int> components) {
     using Vector = typename std::remove_reference_t<decltype(stream)>::value_type;
-    if (const Accessor* accessor = source.attribute(place, name, components))
+    if (const Accessor* accessor = source.targetAttribute(place, name, components))
       stream = packed<Vector>(readDeltas(source, *accessor, Vector::length()));
   };
   read("POSITION", target.positions, {3});

@@ -12,22 +12,19 @@ namespace lucerna::scene::gltf {
 
 class PrimitiveSource {
  public:
-  PrimitiveSource(Context& context, const Place& primitive, std::string name)
-      : context_(context), primitive_(primitive), name_(std::move(name)) {}
+  PrimitiveSource(Context& context, const Place& primitive, std::string name);
 
   const Place& place() const { return primitive_; }
   const std::string& name() const { return name_; }
   Document& document() const { return context_.document; }
   std::uint32_t vertexCount() const { return vertexCount_; }  // of the accessors
 
-  // An attribute, null if it is absent. It must have a fitting number of components and as many
-  // elements as the first one asked for. `owner` holds attributes by name: the primitive's, or
-  // those of a morph target.
-  const Accessor* attribute(const Place& owner, const char* name,
-                            std::initializer_list<int> components);
-  const Accessor* attribute(const char* name, std::initializer_list<int> components) {
-    return attribute(primitive_.at("attributes"), name, components);
-  }
+  // An attribute, null if it is absent. It must have one of the numbers of components and as many
+  // elements as the first one asked for.
+  const Accessor* attribute(const char* name, std::initializer_list<int> components);
+  // The same of a morph target, which names them like the primitive.
+  const Accessor* targetAttribute(const Place& target, const char* name,
+                                  std::initializer_list<int> components);
   // Null if the primitive draws its vertices in their order.
   const Accessor* indices() const;
 
@@ -44,8 +41,13 @@ class PrimitiveSource {
   }
 
  private:
+  const Accessor* find(const Place& owner, const char* name) const;
+  const Accessor* checked(const Place& owner, const char* name, const Accessor* accessor,
+                          std::initializer_list<int> components);
+
   Context& context_;
   Place primitive_;
+  const UnpackedPrimitive* unpacked_ = nullptr;  // if it is packed
   std::string name_;
   std::uint32_t vertexCount_ = 0;
   std::vector<std::uint32_t> vertices_;  // those that are used, if few are; else empty: all

@@ -1,9 +1,6 @@
 #include "scene/import/scene_stream.hpp"
 
-#include <cstring>
-#include <optional>
-#include <type_traits>
-
+#include "core/byte_stream.hpp"
 #include "scene/check_scene.hpp"
 
 namespace lucerna::scene {
@@ -11,124 +8,7 @@ namespace {
 
 constexpr std::uint64_t kMagic = 0x31656e656373634cull;  // "Lcscene1"
 
-template <typename T>
-concept Raw =
-    std::is_trivially_copyable_v<T> && (!std::is_enum_v<T> || std::is_same_v<T, std::byte>) &&
-    !std::is_same_v<T, bool> && !std::is_pointer_v<T>;
-
-// Writer and Reader understand the same calls, so that each struct is described once, below.
-class Writer {
- public:
-  Bytes bytes;
-
-  template <Raw T>
-  void operator()(const T& value) {
-    append(&value, sizeof value);
-  }
-  void operator()(const bool& value) { (*this)(static_cast<std::uint8_t>(value)); }
-  template <typename E>
-  void choice(const E& value, int) {
-    (*this)(static_cast<std::uint8_t>(value));
-  }
-  void operator()(const std::string& text) { block(text); }
-  template <Raw T>
-  void operator()(const std::vector<T>& values) {
-    block(values);
-  }
-  template <typename T, typename Fields>
-  void list(const std::vector<T>& values, Fields fields) {
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    for (const T& value : values) fields(*this, value);
-  }
-  template <Raw T>
-  void operator()(const std::optional<T>& value) {
-    (*this)(value.has_value());
-    if (value) (*this)(*value);
-  }
-
- private:
-  template <typename Container>
-  void block(const Container& values) {
-    (*this)(static_cast<std::uint64_t>(values.size()));
-    append(values.data(), values.size() * sizeof(values[0]));
-  }
-  void append(const void* data, std::size_t size) {
-    const auto* from = static_cast<const std::byte*>(data);
-    bytes.insert(bytes.end(), from, from + size);
-  }
-};
-
-// After the first fault every call leaves its value alone.
-class Reader {
- public:
-  explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
-
-  bool good() const { return good_; }
-  bool atEnd() const { return rest_.empty(); }
-
-  template <Raw T>
-  void operator()(T& value) {
-    take(&value, sizeof value);
-  }
-  void operator()(bool& value) {
-    std::uint8_t byte = 0;
-    (*this)(byte);
-    value = byte != 0;
-  }
-  template <typename E>
-  void choice(E& value, int count) {
-    std::uint8_t byte = 0;
-    (*this)(byte);
-    if (byte >= count)
-      good_ = false;
-    else
-      value = static_cast<E>(byte);
-  }
-  void operator()(std::string& text) { block(text); }
-  template <Raw T>
-  void operator()(std::vector<T>& values) {
-    block(values);
-  }
-  template <typename T, typename Fields>
-  void list(std::vector<T>& values, Fields fields) {
-    std::uint64_t count = 0;
-    (*this)(count);
-    // Every element takes at least one byte, so that the loop ends with the bytes.
-    for (std::uint64_t i = 0; i < count && good_; ++i) fields(*this, values.emplace_back());
-  }
-  template <Raw T>
-  void operator()(std::optional<T>& value) {
-    bool has = false;
-    (*this)(has);
-    if (has) (*this)(value.emplace());
-  }
-
- private:
-  template <typename Container>
-  void block(Container& values) {
-    std::uint64_t count = 0;
-    (*this)(count);
-    if (!good_ || count > rest_.size() / sizeof(values[0])) {
-      good_ = false;
-      return;
-    }
-    values.resize(count);
-    take(values.data(), count * sizeof(values[0]));
-  }
-  void take(void* to, std::size_t size) {
-    if (!good_ || size > rest_.size()) {
-      good_ = false;
-      return;
-    }
-    if (size > 0) std::memcpy(to, rest_.data(), size);
-    rest_ = rest_.subspan(size);
-  }
-
-  std::span<const std::byte> rest_;
-  bool good_ = true;
-};
-
-// Each struct once, for both directions.
+// Each struct once, for both directions: ByteWriter and ByteReader understand the same calls.
 // NOLINTBEGIN(readability-identifier-naming): named as the functions they are called like
 const auto textureFields = [](auto& a, auto& t) {
   a(t.path), a(t.bytes), a(t.alphaPath), a(t.bump);
@@ -195,7 +75,7 @@ const auto fields = [](auto& a, auto& imported) {
 }  // namespace
 
 Bytes writeStream(const ImportedScene& imported) {
-  Writer writer;
+  ByteWriter writer;
   std::size_t size = 1 << 16;
   for (const Mesh& mesh : imported.scene.meshes)
     size += 48 * mesh.positions.size() + 4 * mesh.indices.size() + 256;
@@ -206,7 +86,7 @@ Bytes writeStream(const ImportedScene& imported) {
 }
 
 Result<ImportedScene> readStream(std::span<const std::byte> bytes) {
-  Reader reader(bytes);
+  ByteReader reader(bytes);
   std::uint64_t magic = 0;
   reader(magic);
   if (magic != kMagic) return error(ErrorKind::Input, "does not start as it should");

@@ -1,5 +1,5 @@
-// Stands in for lucerna_worker in tests: `test_worker import PATH`. A file name that
-// says so makes it misbehave as a reader taken over by a hostile file might.
+// Stands in for lucerna_worker in tests: `test_worker draco`, or `test_worker import PATH`, where a
+// file name that says so makes it misbehave as a reader taken over by a hostile file might.
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -7,9 +7,11 @@
 #include <thread>
 #include <vector>
 
+#include "scene/gltf/draco_worker.hpp"
 #include "scene/import/import_worker.hpp"
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "draco") return lucerna::scene::gltf::dracoWorker();
   if (argc != 3 || std::string(argv[1]) != "import") return 2;
   const std::string path = argv[2];
   const auto says = [&](const char* word) { return path.find(word) != std::string::npos; };

@@ -1,0 +1,367 @@
+// Meshes packed by Draco and by meshoptimizer, made here with their encoders.
+#include <draco/compression/encode.h>
+#include <gmock/gmock.h>
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <random>
+
+#include "scene/gltf/gltf_file.hpp"
+
+namespace lucerna::scene {
+namespace {
+
+using nlohmann::json;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+class Packed : public GltfFile {
+ protected:
+  // An accessor without data of its own.
+  int described(int componentType, const char* type, int count, bool normalized = false) {
+    root_["accessors"].push_back({{"componentType", componentType},
+                                  {"type", type},
+                                  {"count", count},
+                                  {"normalized", normalized}});
+    return static_cast<int>(root_["accessors"].size()) - 1;
+  }
+};
+
+// Draco.
+
+// A grid of side + 1 by side + 1 vertices in the unit square; colours are its coordinates.
+std::vector<char> dracoGrid(int side, draco::MeshEncoderMethod method) {
+  draco::Mesh mesh;
+  const int count = (side + 1) * (side + 1);
+  mesh.set_num_points(static_cast<std::uint32_t>(count));
+  const auto add = [&](draco::GeometryAttribute::Type kind, std::uint8_t components,
+                       draco::DataType type, int bytes) {
+    draco::GeometryAttribute attribute;
+    attribute.Init(kind, nullptr, components, type, false, bytes, 0);
+    return mesh.attribute(mesh.AddAttribute(attribute, true, static_cast<std::uint32_t>(count)));
+  };
+  auto* positions = add(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32, 12);
+  auto* normals = add(draco::GeometryAttribute::NORMAL, 3, draco::DT_FLOAT32, 12);
+  auto* colors = add(draco::GeometryAttribute::COLOR, 4, draco::DT_UINT8, 4);
+  for (int i = 0; i < count; ++i) {
+    const int x = i % (side + 1), y = i / (side + 1);
+    const auto inUnits = [&](int value) {
+      return static_cast<float>(value) / static_cast<float>(side);
+    };
+    const std::array<float, 3> position{inUnits(x), inUnits(y), 0};
+    const std::array<float, 3> normal{0, 0, 1};
+    const std::array<std::uint8_t, 4> color{static_cast<std::uint8_t>(x),
+                                            static_cast<std::uint8_t>(y), 0, 255};
+    const draco::AttributeValueIndex at(static_cast<std::uint32_t>(i));
+    positions->SetAttributeValue(at, position.data());
+    normals->SetAttributeValue(at, normal.data());
+    colors->SetAttributeValue(at, color.data());
+  }
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      const auto corner = [&](int dx, int dy) {
+        return draco::PointIndex(static_cast<std::uint32_t>((y + dy) * (side + 1) + x + dx));
+      };
+      mesh.AddFace({corner(0, 0), corner(1, 0), corner(1, 1)});
+      mesh.AddFace({corner(0, 0), corner(1, 1), corner(0, 1)});
+    }
+  draco::Encoder encoder;
+  encoder.SetEncodingMethod(method);
+  encoder.SetAttributeQuantization(draco::GeometryAttribute::POSITION, 14);
+  draco::EncoderBuffer buffer;
+  EXPECT_TRUE(encoder.EncodeMeshToBuffer(mesh, &buffer).ok());
+  return {buffer.data(), buffer.data() + buffer.size()};
+}
+
+class DracoFile : public Packed {
+ protected:
+  // The first primitive, a grid of 4 by 4 squares, packed.
+  json& grid(draco::MeshEncoderMethod method = draco::MESH_EDGEBREAKER_ENCODING) {
+    constexpr int kVertices = 25, kIndices = 96;
+    root_["extensionsUsed"] = root_["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    json& primitive = root_["meshes"][0]["primitives"][0];
+    primitive["attributes"] = {{"POSITION", described(5126, "VEC3", kVertices)},
+                               {"NORMAL", described(5126, "VEC3", kVertices)},
+                               {"COLOR_0", described(5121, "VEC4", kVertices, true)}};
+    primitive["indices"] = described(5123, "SCALAR", kIndices);
+    extension() = {{"bufferView", view(dracoGrid(4, method))},
+                   {"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"COLOR_0", 2}}}};
+    return primitive;
+  }
+  json& extension() {
+    return root_["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"];
+  }
+};
+
+TEST_F(DracoFile, IsUnpackedWhicheverWayItWasPacked) {
+  for (const auto method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+    SCOPED_TRACE(method);
+    grid(method);
+    const auto scene = read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_THAT(scene->warnings, IsEmpty());
+    const Mesh& mesh = scene->meshes.at(0);
+    EXPECT_EQ(mesh.triangleCount(), 32u);
+    ASSERT_EQ(mesh.positions.size(), 25u);
+    EXPECT_LT(glm::distance(mesh.bounds.max, vec3(1, 1, 0)), 1e-3f);
+    for (std::size_t i = 0; i < 25; ++i) {  // attributes belong together
+      EXPECT_NEAR(mesh.positions[i].x * 4, mesh.colors[i].x, 1e-2);
+      EXPECT_NEAR(mesh.positions[i].y * 4, mesh.colors[i].y, 1e-2);
+      EXPECT_GT(mesh.normals[i].z, 0.99f);
+    }
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {  // counter-clockwise, half a cell
+      const vec3 a = mesh.positions[mesh.indices[i]];
+      const float area = glm::cross(mesh.positions[mesh.indices[i + 1]] - a,
+                                    mesh.positions[mesh.indices[i + 2]] - a)
+                             .z;
+      EXPECT_NEAR(area, 1.f / 16, 1e-3);
+    }
+  }
+}
+
+TEST_F(DracoFile, OneMeshMayHoldSeveralPackedPrimitives) {
+  grid();
+  json second = root_["meshes"][0]["primitives"][0];
+  json third = second;
+  third["extensions"]["KHR_draco_mesh_compression"]["bufferView"] =
+      view(dracoGrid(4, draco::MESH_SEQUENTIAL_ENCODING));
+  root_["meshes"][0]["primitives"].push_back(second);
+  root_["meshes"][0]["primitives"].push_back(third);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->meshes.size(), 2u);  // the first two are the same
+  EXPECT_EQ(scene->triangleCount(), 96u);
+}
+
+TEST_F(DracoFile, RefusesWhatDoesNotFitItsAccessors) {
+  json& primitive = grid();
+  const int position = primitive["attributes"]["POSITION"], indices = primitive["indices"];
+  root_["accessors"][indices]["count"] = 93;
+  expectRefused({"/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression: found Draco data",
+                 "25 vertices and 96 indices, not 25 and 93", "perhaps without"});
+  root_["accessors"][indices]["count"] = 96;
+  root_["accessors"][position]["count"] = 24;
+  expectRefused({"found an accessor with count 24", "25, as in the other packed attributes"});
+  root_["accessors"][position]["count"] = 25;
+  extension()["attributes"]["POSITION"] = 7;
+  expectRefused({"no attribute with the id 7"});
+  extension()["attributes"]["POSITION"] = 0;
+  extension()["attributes"]["TEXCOORD_0"] = 1;
+  expectRefused({"/attributes: found no \"TEXCOORD_0\""});
+  extension()["attributes"] = json::object();
+  expectRefused({"found no attribute"});
+  grid();
+  root_["meshes"][0]["primitives"][0]["mode"] = 5;
+  expectRefused({"/meshes/0/primitives/0/mode: found 5", "4 (triangles)"});
+  root_["meshes"][0]["primitives"][0].erase("mode");
+  root_["meshes"][0]["primitives"][0].erase("indices");
+  expectRefused({"found no \"indices\""});
+}
+
+TEST_F(DracoFile, RefusesHugeCountsBeforeMemoryIsTaken) {
+  json& primitive = grid();
+  for (const char* name : {"POSITION", "NORMAL", "COLOR_0"})
+    root_["accessors"][primitive["attributes"][name].get<int>()]["count"] = 4000000000u;
+  expectRefused({"found data that expands to"});
+}
+
+// Each is read in a child: it may refuse or draw, nothing else.
+TEST_F(DracoFile, DamagedDataIsRefusedOrDrawn) {
+  grid();
+  const std::string whole = buffer_;
+  std::mt19937 random(5);
+  int refused = 0;
+  constexpr int kRounds = 60;
+  for (int round = 0; round < kRounds; ++round) {
+    SCOPED_TRACE(round);
+    buffer_ = whole;
+    for (int i = 0; i < 3; ++i) buffer_[random() % buffer_.size()] = static_cast<char>(random());
+    const auto scene = read();
+    refused += !scene;
+    if (!scene) {
+      EXPECT_THAT(scene.error().message, HasSubstr("Draco data"));
+    }
+  }
+  EXPECT_GT(refused, kRounds / 4);
+}
+
+TEST_F(DracoFile, ADecoderThatDoesNotAnswerIsASentence) {
+  grid();
+  const char* before = std::getenv("LUCERNA_WORKER");
+  const std::string kept = before ? before : "";
+  setenv("LUCERNA_WORKER", "/bin/false", 1);
+  expectRefused({"/meshes: found Draco data, whose decoder", "wanted meshes that it can unpack"});
+  setenv("LUCERNA_WORKER", "/bin/true", 1);
+  expectRefused({"/meshes: found Draco data, whose decoder answered with something else"});
+  if (before)
+    setenv("LUCERNA_WORKER", kept.c_str(), 1);
+  else
+    unsetenv("LUCERNA_WORKER");
+}
+
+// meshoptimizer.
+
+class MeshoptFile : public Packed {
+ protected:
+  // A view of `count` elements over packed bytes; its own buffer has no data.
+  int packedView(const std::vector<unsigned char>& bytes, std::size_t count, std::size_t stride,
+                 const char* mode, const char* filter = "NONE") {
+    root_["extensionsUsed"] =
+        root_["extensionsRequired"] = {"EXT_meshopt_compression", "KHR_mesh_quantization"};
+    json& fallback = root_["buffers"][1];
+    const std::size_t offset = fallback.value("byteLength", std::size_t{0});
+    fallback["extensions"]["EXT_meshopt_compression"]["fallback"] = true;
+    fallback["byteLength"] = offset + count * stride;
+    const int source = view(bytes);
+    json packed = root_["bufferViews"][source];
+    packed.update({{"count", count}, {"byteStride", stride}, {"mode", mode}, {"filter", filter}});
+    root_["bufferViews"][source] = {{"buffer", 1},
+                                    {"byteOffset", offset},
+                                    {"byteLength", count * stride},
+                                    {"extensions", {{"EXT_meshopt_compression", packed}}}};
+    return source;
+  }
+  template <typename T>
+  int packedVertices(const std::vector<T>& values, std::size_t stride,
+                     const char* filter = "NONE") {
+    const std::size_t count = values.size() * sizeof(T) / stride;
+    std::vector<unsigned char> bytes(meshopt_encodeVertexBufferBound(count, stride));
+    bytes.resize(
+        meshopt_encodeVertexBuffer(bytes.data(), bytes.size(), values.data(), count, stride));
+    return packedView(bytes, count, stride, "ATTRIBUTES", filter);
+  }
+  int accessorOn(int bufferView, int componentType, const char* type, int count,
+                 bool normalized = false) {
+    const int made = described(componentType, type, count, normalized);
+    root_["accessors"][made]["bufferView"] = bufferView;
+    return made;
+  }
+  // The square with packed positions and packed indices.
+  json& packedSquare(bool sequence = false) {
+    json& primitive = root_["meshes"][0]["primitives"][0];
+    primitive["attributes"]["POSITION"] = accessorOn(
+        packedVertices<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}, 12), 5126, "VEC3", 4);
+    primitive["attributes"]["NORMAL"] = squareNormals();
+    const std::vector<std::uint32_t> indices{0, 1, 2, 0, 2, 3};
+    std::vector<unsigned char> bytes(256);
+    bytes.resize(sequence ? meshopt_encodeIndexSequence(bytes.data(), 256, indices.data(), 6)
+                          : meshopt_encodeIndexBuffer(bytes.data(), 256, indices.data(), 6));
+    primitive["indices"] =
+        accessorOn(packedView(bytes, 6, 2, sequence ? "INDICES" : "TRIANGLES"), 5123, "SCALAR", 6);
+    return primitive;
+  }
+  json& packedOf(int accessor) {
+    return root_["bufferViews"][root_["accessors"][accessor]["bufferView"].get<int>()]["extensions"]
+                ["EXT_meshopt_compression"];
+  }
+};
+
+TEST_F(MeshoptFile, VerticesAndIndicesAreUnpacked) {
+  for (const bool sequence : {false, true}) {
+    packedSquare(sequence);
+    const auto scene = read();
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_THAT(scene->warnings, IsEmpty());
+    EXPECT_EQ(scene->triangleCount(), 2u);
+    EXPECT_EQ(scene->meshes[0].bounds.max, vec3(1, 1, 0));
+    EXPECT_EQ(scene->meshes[0].positions[2], vec3(1, 1, 0));
+  }
+}
+
+TEST_F(MeshoptFile, FiltersAreUndone) {
+  json& primitive = packedSquare();
+  const float half = std::sqrt(0.5f);
+  const std::vector<float> normals{0, 0, 1, 0, half, 0, half, 0, -1, 0, 0, 0, 0, -half, half, 0};
+  std::vector<std::int8_t> octahedral(16);
+  meshopt_encodeFilterOct(octahedral.data(), 4, 4, 8, normals.data());
+  primitive["attributes"]["NORMAL"] =
+      accessorOn(packedVertices(octahedral, 4, "OCTAHEDRAL"), 5120, "VEC3", 4, true);
+  root_["bufferViews"].back()["byteStride"] = 4;
+  std::vector<std::uint32_t> exponential(8);
+  const std::vector<float> uv{0, 0.25f, 1, -3, 0.5f, 100, 7, 0};
+  meshopt_encodeFilterExp(exponential.data(), 4, 8, 16, uv.data());
+  primitive["attributes"]["TEXCOORD_0"] =
+      accessorOn(packedVertices(exponential, 8, "EXPONENTIAL"), 5126, "VEC2", 4);
+  const std::vector<float> turns{0, 0, 0, 1, 0, half, 0, half};
+  std::vector<std::int16_t> quaternions(8);
+  meshopt_encodeFilterQuat(quaternions.data(), 2, 8, 16, turns.data());
+  const int output =
+      accessorOn(packedVertices(quaternions, 8, "QUATERNION"), 5122, "VEC4", 2, true);
+  root_["animations"][0] = {
+      {"samplers", {{{"input", floats({0, 1}, "SCALAR", 1)}, {"output", output}}}},
+      {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}}};
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  const Mesh& mesh = scene->meshes[0];
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_LT(glm::distance(mesh.normals[i],
+                            vec3(normals[4 * i], normals[4 * i + 1], normals[4 * i + 2])),
+              0.02f);
+    EXPECT_NEAR(mesh.texCoords[0][i].x, uv[2 * i], 0.01f);
+    EXPECT_NEAR(mesh.texCoords[0][i].y, uv[2 * i + 1], 0.01f);
+  }
+  const vec4 turn = scene->animations.at(0).channels.at(0).values.at(1);
+  EXPECT_LT(glm::distance(turn, vec4(0, half, 0, half)), 1e-3f);
+}
+
+TEST_F(MeshoptFile, RefusesWhatDoesNotFit) {
+  json& primitive = packedSquare();
+  const int position = primitive["attributes"]["POSITION"], indices = primitive["indices"];
+  const json good = packedOf(position), goodIndices = packedOf(indices);
+  const auto with = [&](const char* key, const json& value, const std::vector<std::string>& words) {
+    packedOf(position)[key] = value;
+    expectRefused(words);
+    packedOf(position) = good;
+  };
+  with("count", 5, {"/count: found 5 elements of 12 bytes", "48 bytes of the bufferView"});
+  with("count", 4000000000u, {"found 4000000000 elements"});
+  with("count", 3, {"data that meshoptimizer cannot unpack"});
+  with("byteStride", 10, {"/byteStride: found 10, wanted a multiple of 4"});
+  with("byteStride", 260, {"/byteStride: found 260"});
+  with("mode", "POINTS", {"/mode: found \"POINTS\""});
+  with("filter", "COLOR", {"/filter: found \"COLOR\""});
+  with("filter", "OCTAHEDRAL", {"4 or 8 for the filter OCTAHEDRAL"});
+  with("filter", "QUATERNION", {"8 for the filter QUATERNION"});
+  with("byteLength", 4000, {"/byteLength: found 4000 at byte"});
+  with("buffer", 2, {"/buffer: found 2"});
+  with("buffer", 1, {"packed data inside the 0 bytes"});
+  packedOf(indices)["filter"] = "EXPONENTIAL";
+  expectRefused({"only ATTRIBUTES have filters"});
+  packedOf(indices) = goodIndices;
+  packedOf(indices)["count"] = 5;
+  expectRefused({"/count: found 5, wanted a multiple of 3"});
+  packedOf(indices) = goodIndices;
+  packedOf(indices)["byteStride"] = 3;
+  expectRefused({"2 or 4, the size of an index"});
+}
+
+TEST_F(MeshoptFile, DamagedDataIsRefusedOrDrawn) {
+  packedSquare();
+  const std::string whole = buffer_;
+  std::mt19937 random(6);
+  int refused = 0;
+  constexpr int kRounds = 500;
+  for (int round = 0; round < kRounds; ++round) {
+    SCOPED_TRACE(round);
+    buffer_ = whole;
+    for (int i = 0; i < 2; ++i) buffer_[random() % buffer_.size()] = static_cast<char>(random());
+    const auto scene = read();
+    refused += !scene;
+    if (!scene) continue;
+    for (const std::uint32_t index : scene->meshes.at(0).indices)
+      ASSERT_LT(index, scene->meshes[0].positions.size());
+  }
+  EXPECT_GT(refused, kRounds / 20);
+}
+
+TEST_F(MeshoptFile, TheNewerExtensionIsRefusedWithTheWayOut) {
+  indexedSquare();
+  root_["extensionsRequired"] = {"KHR_meshopt_compression"};
+  expectRefused({"KHR_meshopt_compression", "with EXT_meshopt_compression, which is read"});
+}
+
+}  // namespace
+}  // namespace lucerna::scene
