@@ -50,8 +50,9 @@ std::uint32_t cornersOf(gpu::Topology topology) {
 void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
   list.batches.clear();
   std::vector<gpu::IndexedDrawCommand> commands;
-  commands.reserve(list.objects.size());
-  for (const std::uint32_t index : list.objects) {
+  std::uint32_t lastMesh = scene::kNone;
+  for (std::uint32_t at = 0; at < list.objects.size(); ++at) {
+    const std::uint32_t index = list.objects[at];
     const scene::Object& object = gpuScene.scene->objects[index];
     const MeshRange& mesh = gpuScene.meshes[object.mesh];
     const bool mirrored = gpuScene.mirrored[index];
@@ -62,22 +63,30 @@ void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
                               .topology = mesh.topology,
                               .firstCommand = static_cast<std::uint32_t>(commands.size())});
     DrawBatch& batch = list.batches.back();
-    ++batch.commandCount;
     batch.primitives += mesh.indexCount / cornersOf(mesh.topology);
+    if (batch.commandCount > 0 && object.mesh == lastMesh) {
+      ++commands.back().instanceCount;
+      continue;
+    }
+    lastMesh = object.mesh;
+    ++batch.commandCount;
     commands.push_back({.indexCount = mesh.indexCount,
                         .instanceCount = 1,
                         .firstIndex = mesh.firstIndex,
                         .baseVertex = mesh.baseVertex,
-                        .baseInstance = index});
+                        .baseInstance = at});
   }
-  if (!commands.empty())
-    device.write(list.commands, std::as_bytes(std::span(commands)), "draw commands");
+  if (commands.empty()) return;
+  device.write(list.commands, std::as_bytes(std::span(commands)), "draw commands");
+  device.write(list.order, std::as_bytes(std::span(list.objects)), "DrawOrderBlock");
 }
 
 void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawList& list,
               gpu::RenderState state, const ProgramOf& programOf) {
   const bool cullBackFaces = state.cull == gpu::Cull::Back;
+  if (list.batches.empty()) return;
   rendering.buffer("ObjectBlock", gpuScene.objects);
+  rendering.buffer("DrawOrderBlock", list.order);
   for (const DrawBatch& batch : list.batches) {
     const scene::Material& material = gpuScene.scene->materials[batch.material];
     const gpu::Program* program = programOf(material);

@@ -1,5 +1,6 @@
 // What Cull makes and drawing passes read: objects to draw, sorted, grouped into batches that share
-// a material, with their indirect draw commands on the GPU.
+// a material, with their indirect draw commands on the GPU. Objects of one mesh that follow each
+// other are instances of one command.
 #pragma once
 
 #include <array>
@@ -23,7 +24,8 @@ struct DrawBatch {
 struct DrawList {
   std::vector<std::uint32_t> objects;  // in drawing order
   std::vector<DrawBatch> batches;
-  gpu::Buffer commands;  // gpu::IndexedDrawCommand, one an object
+  gpu::Buffer commands;  // gpu::IndexedDrawCommand
+  gpu::Buffer order;     // `objects`, as the block DrawOrderBlock (render/object.vert)
 };
 
 struct DrawLists {

@@ -1,9 +1,10 @@
 // The resource "scene": the scene's copy on the GPU beside the scene itself.
 //
 // All meshes share one vertex and one index buffer; objects' matrices are in the storage block
-// `ObjectBlock`, a batch's material in the uniform block `MaterialBlock` (render/scene.glsl). The
-// object's index reaches the vertex shader as the instanced attribute `objectIndex`, through
-// baseInstance.
+// `ObjectBlock`, a batch's material in the uniform block `MaterialBlock` (render/scene.glsl). What
+// reaches the vertex shader is where an object stands in the list that is drawn: the instanced
+// attribute `listIndex` counts up from baseInstance, and the list's `DrawOrderBlock` names the
+// object. So objects that share a mesh and follow each other in a list are one instanced draw.
 #pragma once
 
 #include <cstdint>
@@ -36,7 +37,8 @@ struct GpuScene {
   SceneChanges changes;
   scene::Bvh bvh;                 // over the objects' boxes; refitted when objects move
   std::vector<MeshRange> meshes;  // as Scene::meshes
-  gpu::Buffer vertices, indices, objectIndices;
+  gpu::Buffer vertices, indices;
+  gpu::Buffer listIndices;  // 0, 1, 2, ... one an object
   gpu::VertexInput input;
   gpu::Buffer objects, materials;  // ObjectBlock, MaterialBlock
   // As Scene::textures, each sRGB or linear as used; empty if nothing uses it. GL's cube maps are

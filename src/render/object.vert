@@ -11,7 +11,9 @@ layout(location = 2) in vec4 tangentO;     // w: handedness; all 0 where the mes
 layout(location = 3) in vec2 texCoord0;
 layout(location = 4) in vec2 texCoord1;
 layout(location = 5) in vec4 color;        // linear
-layout(location = 6) in uint objectIndex;  // once an instance, reached through baseInstance
+layout(location = 6) in uint listIndex;    // once an instance, reached through baseInstance
+
+layout(std430) readonly buffer DrawOrderBlock { uint drawOrder[]; };  // the list's objects
 
 // Two programs that draw the same object must give the same depth.
 invariant gl_Position;
@@ -26,7 +28,7 @@ layout(location = 5) out vec3 objectPositionO;
 #endif
 
 void main() {
-  ObjectValues object = objects[objectIndex];
+  ObjectValues object = objects[drawOrder[listIndex]];
   mat3 normalMatrix =
       mat3(object.normalMatrix0.xyz, object.normalMatrix1.xyz, object.normalMatrix2.xyz);
   vec4 position = object.worldFromObject * vec4(positionO, 1.0);

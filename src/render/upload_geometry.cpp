@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 
 #include "core/parallel.hpp"
 #include "render/upload.hpp"
@@ -57,7 +58,7 @@ void makeInput(gpu::Device& device, GpuScene& gpuScene) {
   const auto at = [](std::size_t offset) { return static_cast<std::uint32_t>(offset); };
   gpuScene.input = device.createVertexInput(
       {.buffers = {{.buffer = &gpuScene.vertices, .stride = sizeof(Vertex), .divisor = 0},
-                   {.buffer = &gpuScene.objectIndices, .stride = 4, .divisor = 1}},
+                   {.buffer = &gpuScene.listIndices, .stride = 4, .divisor = 1}},
        .attributes = {{0, 0, 3, Type::Float, at(offsetof(Vertex, position))},
                       {1, 0, 3, Type::Snorm16, at(offsetof(Vertex, normal))},
                       {2, 0, 4, Type::Snorm16, at(offsetof(Vertex, tangent))},
@@ -93,14 +94,12 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
     writeVertices(mesh, vertices.data() + gpuScene.meshes[m].baseVertex);
     std::ranges::copy(mesh.elements(), indices.begin() + gpuScene.meshes[m].firstIndex);
   }
-  std::vector<std::uint32_t> objectIndices(std::max<std::size_t>(scene.objects.size(), 1));
-  for (std::size_t i = 0; i < objectIndices.size(); ++i)
-    objectIndices[i] = static_cast<std::uint32_t>(i);
+  std::vector<std::uint32_t> listIndices(std::max<std::size_t>(scene.objects.size(), 1));
+  std::iota(listIndices.begin(), listIndices.end(), 0u);
 
   gpuScene.vertices = device.createBuffer(std::as_bytes(std::span(vertices)), "vertices");
   gpuScene.indices = device.createBuffer(std::as_bytes(std::span(indices)), "indices");
-  gpuScene.objectIndices =
-      device.createBuffer(std::as_bytes(std::span(objectIndices)), "object indices");
+  gpuScene.listIndices = device.createBuffer(std::as_bytes(std::span(listIndices)), "list indices");
   makeInput(device, gpuScene);
 }
 

@@ -179,5 +179,68 @@ TEST(GBuffer, AlphaTestCutsHoles) {
   EXPECT_LT(withHoles, solid * 3 / 4);
 }
 
+// Nine cubes in a square, 10 m away.
+scene::Scene nineCubes() {
+  scene::Scene scene = testing::emptyScene();
+  scene.materials.emplace_back();
+  for (int i = 0; i < 9; ++i) {
+    const vec3 place(3.f * static_cast<float>(i % 3 - 1), 3.f * static_cast<float>(i / 3 - 1), -10);
+    testing::addObject(scene, 0, 0, glm::translate(mat4(1.f), place));
+  }
+  updateTransforms(scene);
+  return scene;
+}
+
+gpu::Counters countersOfGBuffer(const scene::Scene& scene) {
+  testing::SceneRenderer renderer(scene);
+  renderer.profiling = true;
+  auto output = renderer.render(testing::rows(kRows), {8, 8});
+  EXPECT_TRUE(output) << output.error().message;
+  for (const graph::StepProfile& step : output->profile.steps)
+    if (step.row == "GBuffer") return step.counters;
+  ADD_FAILURE() << "GBuffer did not run";
+  return {};
+}
+
+TEST(GBuffer, ObjectsThatShareAMeshAreInstancesOfOneDraw) {
+  scene::Scene scene = nineCubes();
+  gpu::Counters counters = countersOfGBuffer(scene);
+  EXPECT_EQ(counters.draws, 1u);
+  EXPECT_EQ(counters.primitives, 9u * 12);
+  // Each stands at its place, with nothing between them: pixels 5 apart are 1.5 m apart.
+  constexpr int kSize = 33, kStep = 5;
+  const Image depths =
+      testing::valueOf(scene, testing::rows(kRows), {kSize, kSize}, "GBuffer.depth");
+  for (int y = -2; y <= 2; ++y)
+    for (int x = -2; x <= 2; ++x)
+      EXPECT_EQ(*depths.pixel<float>(16 + kStep * x, 16 + kStep * y) > 0.f,
+                x % 2 == 0 && y % 2 == 0)
+          << x << ' ' << y;
+
+  scene.materials.emplace_back();
+  scene.objects[4].material = 1;  // which one it is in the middle of the list does not matter
+  EXPECT_EQ(countersOfGBuffer(scene).draws, 2u);
+  scene.nodes[scene.objects[0].node].scale.x = -1.f;  // mirrored: its front faces turn
+  scene.meshes.push_back(scene.meshes[0]);
+  scene.objects[8].mesh = 1;
+  updateTransforms(scene);
+  counters = countersOfGBuffer(scene);
+  EXPECT_EQ(counters.draws, 4u);
+  EXPECT_EQ(counters.primitives, 9u * 12);
+  testing::expectNoDebugMessages();
+}
+
+TEST(GBuffer, InstancesDoNotChangeThePicture) {
+  scene::Scene scene = testing::sampleScene();
+  const Image together = testing::valueOf(scene, testing::rows(kRows), {160, 90}, "GBuffer.albedo");
+  // With a mesh of its own for each object, nothing can be merged.
+  for (scene::Object& object : scene.objects) {
+    scene.meshes.push_back(scene.meshes[object.mesh]);
+    object.mesh = static_cast<std::uint32_t>(scene.meshes.size() - 1);
+  }
+  const Image apart = testing::valueOf(scene, testing::rows(kRows), {160, 90}, "GBuffer.albedo");
+  EXPECT_TRUE(std::ranges::equal(together.as<std::uint8_t>(), apart.as<std::uint8_t>()));
+}
+
 }  // namespace
 }  // namespace lucerna
