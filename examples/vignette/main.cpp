@@ -24,8 +24,8 @@ Status draw(const char* pipeline, const char* picture) {
   output.path = picture;
   LUCERNA_TRY(writer, app::FrameWriter::create(output, settings));
   LUCERNA_TRY(session, app::openSession(settings, std::move(registry), writer.layers()));
-  const app::FrameSink write = [&](app::Session& s, const gpu::Texture& texture) {
-    return writer.write(s, texture);
+  const app::FrameSink write = [&](app::Session& s, int view, const gpu::Texture& texture) {
+    return writer.write(s, view, texture);
   };
   LUCERNA_TRY_VOID(app::runFrame(*session, nullptr, write));
   return writer.finish();
