@@ -85,7 +85,7 @@ class TilesTest : public ViewsTest {
           "    for (int x = -radius; x <= radius; ++x)\n"
           "      sum += texelFetch(color, clamp(ivec2(gl_FragCoord.xy) + ivec2(x, y), ivec2(0), "
           "last), 0);\n}\n");
-    settings_.pipeline = write("pattern.json", fmt::format(R"({{"passes": [
+    settings_.pipeline = write("pattern.json", fmt::format(R"({{"lucerna": "pipeline/1", "passes": [
   {{"name": "Place", "type": "Fullscreen", "params": {{"shader": "place.frag", "format": "Rgba32Float"}}}},
   {{"name": "Sum", "type": "Fullscreen", "params": {{"shader": "sum.frag", "format": "Rgba32Float",
     "radius": {}, "halo": {}}}}}]}})",
@@ -139,10 +139,11 @@ TEST_F(TilesTest, APassThatMayLookAnywhereIsRefused) {
 
 TEST_F(TilesTest, ARowThatWritesFilesIsRefused) {
   const std::string file = (folder_ / "saved.png").string();
-  settings_.pipeline =
-      write("save.json", R"({"passes": [{"type": "Cull"}, {"type": "GBuffer"}, {"type": "Lighting"},
+  settings_.pipeline = write(
+      "save.json",
+      R"({"lucerna": "pipeline/1", "passes": [{"type": "Cull"}, {"type": "GBuffer"}, {"type": "Lighting"},
         {"type": "ToneMap"}, {"type": "SaveImage", "params": {"file": ")" +
-                             file + R"("}}]})");
+          file + R"("}}]})");
   settings_.tile = 32;
   const Status status = tryRender((folder_ / "a.png").string(), {});
   ASSERT_FALSE(status);

@@ -10,7 +10,8 @@ namespace lucerna::render {
 namespace {
 
 // What drawList() and ForwardShading bind for every program.
-constexpr std::array kBlocks = {"ViewBlock", "LightBlock", "ObjectBlock", "MaterialBlock"};
+constexpr std::array kBlocks = {"ViewBlock", "LightBlock", "ObjectBlock", "DrawOrderBlock",
+                                "MaterialBlock"};
 constexpr std::array kTextures = {
     "albedoTexture",    "emissiveTexture", "normalTexture", "metallicRoughnessTexture",
     "occlusionTexture", "specularTexture", "albedoCube",    "emissiveCube"};

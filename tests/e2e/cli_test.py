@@ -253,7 +253,7 @@ class CliTest(unittest.TestCase):
 
     def test_warnings_of_the_pipeline_are_in_the_document(self):
         run = self.lucerna("render", ATRIUM, *SMALL, "--set", "Background.enabled=false",
-                           "--set", "Transparency.reads.color=Lighting.color", "-o", "a.png", "--json")
+                           "--set", "Transparency.reads.color=CustomShaders.color", "-o", "a.png", "--json")
         self.assert_ok(run)
         self.assertEqual(json.loads(run.stdout)["warnings"], [])
         (self.folder / "idle.json").write_text(json.dumps({"lucerna": "pipeline/1", "passes": [
@@ -387,7 +387,7 @@ class CliTest(unittest.TestCase):
         self.assertEqual(run.stdout + run.stderr, "")
 
     def test_pictures_larger_than_the_drivers_textures_are_drawn_in_tiles(self):
-        limit = json.loads(self.lucerna("doctor", "--json").stdout)["gl"]["max_texture_side"]
+        limit = json.loads(self.lucerna("doctor", "--json").stdout)["gl"]["maxTextureSide"]
         run = self.lucerna("render", ATRIUM, "--size", f"{limit + 3616}x16", "-o", "wide.png")
         self.assert_ok(run)
         self.assertIn("5 tiles of 4096 px", run.stderr)
@@ -401,7 +401,7 @@ class CliTest(unittest.TestCase):
                       ["--tile", "8"]):
             run = self.lucerna("render", ATRIUM, *SMALL, "-o", "a.png", *flags)
             self.assertEqual(run.returncode, 2, run.stderr)
-            self.assertEqual(len(run.stderr.strip().splitlines()), 1, run.stderr)
+            self.assertIn("lucerna render --help", run.stderr)
         self.assertFalse((self.folder / "a.png").exists())
 
     def test_a_row_writes_a_texture_at_its_place(self):
