@@ -1,5 +1,6 @@
 #include "script/script.hpp"
 
+#include <cerrno>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -20,8 +21,11 @@ constexpr std::uint64_t kMaxSourceBytes = 4ull << 20;
 constexpr ChildLimits kLimits{
     .time = std::chrono::seconds(5), .residentBytes = 512ull << 20, .outputBytes = 16ull << 20};
 
-std::string remedyFor(ChildOutput::End end) {
+std::string remedyFor(const ChildOutput& child) {
   using End = ChildOutput::End;
+  const End end = child.end;
+  if (end == End::NotStarted && child.status == ENOENT)
+    return "a part of Lucerna is missing: build or install it again";
   if (end == End::TimedOut || end == End::OutOfMemory || end == End::TooMuchOutput)
     return fmt::format(
         "a script may take {} s, {} MiB of memory and {} MiB of output: look for a loop that does "
@@ -46,13 +50,14 @@ Result<graph::Pipeline> runPipelineSource(const std::string& source, const std::
   const std::string text = request.dump(-1, ' ', false, Json::error_handler_t::replace);
   const ChildOutput child =
       runChild(workerProgram(), {"script"}, std::as_bytes(std::span(text)), kLimits);
-  for (const std::string& line : split(child.err, '\n'))
-    if (!line.empty()) log::info("{}: {}", name, line);
+  if (child.end != ChildOutput::End::NotStarted)
+    for (const std::string& line : split(child.err, '\n'))
+      if (!line.empty()) log::info("{}: {}", name, line);
   if (child.end == ChildOutput::End::Cancelled)
     return error(ErrorKind::Cancelled, "{}: cancelled", name);
   if (child.end != ChildOutput::End::Exited || child.status != 0)
     return error(ErrorKind::Pipeline, "{}: the script {}; {}", name, describeEnd(child, kLimits),
-                 remedyFor(child.end));
+                 remedyFor(child));
   return pipelineFromAnswer({reinterpret_cast<const char*>(child.out.data()), child.out.size()},
                             name, input);
 }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cstdlib>
 
 #include "script/load_pipeline.hpp"
 
@@ -135,6 +136,17 @@ TEST(Script, AScriptThatTampersWithTheEngineGetsAnErrorNotACrash) {
       EXPECT_EQ(result.error().kind, ErrorKind::Pipeline) << source;
     }
   }
+}
+
+TEST(Script, AMissingWorkerIsNamedWithTheWayOut) {
+  const char* named = std::getenv("LUCERNA_WORKER");
+  const std::string before = named ? named : "";
+  setenv("LUCERNA_WORKER", "/nowhere/lucerna_worker", 1);
+  const auto made = runPipelineSource("pass('Cull')", "a.js", {});
+  setenv("LUCERNA_WORKER", before.c_str(), 1);
+  ASSERT_FALSE(made);
+  EXPECT_THAT(made.error().message,
+              AllOf(HasSubstr("/nowhere/lucerna_worker"), HasSubstr("build or install it again")));
 }
 
 TEST(LoadPipeline, ShippedOnesLoadAndUnknownNamesAreAnsweredWithThem) {
