@@ -60,7 +60,9 @@ Status compare(int lights) {
   settings.scene = fmt::format("builtin:atrium?lights={}", lights);
   settings.size = {640, 360};
   LUCERNA_TRY(session, app::openSession(settings));
-  session->rebuild = false;  // the executors below have their pipelines already
+  // The executors below have their pipelines already, and each draws one view.
+  session->rebuild = false;
+  session->plan = app::planViews(settings.renderSize(), 1, 0, 0);
 
   std::array<Way, 2> ways{Way{.pipeline = "deferred"}, Way{.pipeline = "forward"}};
   for (Way& way : ways) {

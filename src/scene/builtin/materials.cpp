@@ -58,9 +58,11 @@ vec3 skyColor(vec3 d) {
 
 // How high a chain of hills stands in a direction, 1 straight up; softly cut out of the sky.
 float hills(vec3 d, float height, std::uint32_t seed) {
+  constexpr float kSoft = 0.004f;
+  if (d.y > height + kSoft) return 0;  // above the highest ridge
   const float around = std::atan2(d.x, d.z) / (2 * kPi) + 0.5f;
   const float ridge = height * fractalNoise(vec2(std::min(around, 0.9999f), 0.3f), 12, 5, seed);
-  return 1 - smooth(-0.004f, 0.004f, d.y - ridge);
+  return 1 - smooth(-kSoft, kSoft, d.y - ridge);
 }
 
 // What is around the cubes: sky, two chains of hills in the haze, and the floor that runs out to
@@ -73,7 +75,8 @@ vec3 surroundings(vec3 d) {
     return glm::mix(haze, color, smooth(0.f, 0.02f, d.y));
   }
   const vec2 place = vec2(d.x, d.z) * (kEyeHeight / -d.y);
-  return glm::mix(stoneColor(tileAt(place / kTile)), haze, smooth(2.f, 9.f, glm::length(place)));
+  const float hazy = smooth(2.f, 9.f, glm::length(place));
+  return hazy < 1 ? glm::mix(stoneColor(tileAt(place / kTile)), haze, hazy) : haze;
 }
 
 // The mean over two texels each way: magnified, the tiles' edges show no steps.
