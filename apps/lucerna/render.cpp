@@ -41,7 +41,8 @@ Json document(const app::Session& session, const app::FrameWriter& writer, doubl
 
 Status renderFrames(app::Session& session, app::FrameWriter& writer, app::ProfileLog* profile) {
   std::optional<Progress> progress;  // the first frame says how many views there are
-  const app::FrameSink write = [&](app::Session& s, int view, const gpu::Texture& output) -> Status {
+  const app::FrameSink write = [&](app::Session& s, int view,
+                                   const gpu::Texture& output) -> Status {
     if (!progress) progress.emplace("rendering", s.settings.frames * s.plan.places.size());
     LUCERNA_TRY_VOID(writer.write(s, view, output));
     progress->advance();

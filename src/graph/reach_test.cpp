@@ -39,10 +39,11 @@ TEST_F(Reaches, AreTheGreatestOfSeveralWays) {
   const Reach reach = of({"Make", "Blur", FakeRow("Blur").named("B2"),
                           FakeRow("Mix").reads("color", "Make.color").reads("other", "B2.color")});
   EXPECT_EQ(reach.pixels, 6);
-  EXPECT_EQ(of({"Make", "Blur", FakeRow("Mix").reads("color", "Make.color").reads("other", "Make.color")},
-               {"Blur.color"})
-                .pixels,
-            3)
+  EXPECT_EQ(
+      of({"Make", "Blur", FakeRow("Mix").reads("color", "Make.color").reads("other", "Make.color")},
+         {"Blur.color"})
+          .pixels,
+      3)
       << "kept values count, too";
 }
 
