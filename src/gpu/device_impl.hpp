@@ -19,7 +19,8 @@ std::span<const EmbeddedShader> embeddedShaders_gpu();
 struct Uniform {
   GLint location = -1;
   GLenum type = 0;
-  GLint count = 1;  // array elements
+  GLint count = 1;                      // array elements
+  std::array<GLfloat, 4> initial = {};  // of float and vec2 to vec4, one element
 };
 
 // What a linked program reads, with the binding points given to it at link time.
@@ -32,8 +33,9 @@ struct Program::Reflection {
   };
   std::map<std::string, Uniform, std::less<>> uniforms;
   std::vector<Slot> samplers, images, uniformBlocks, storageBlocks;
-  std::vector<std::string> files;  // all that went in, for reload
-  std::optional<Error> fault;      // why it never compiled
+  std::vector<ProgramInput> inputs;  // all of these
+  std::vector<std::string> files;    // all that went in, for reload
+  std::optional<Error> fault;        // why it never compiled
 };
 
 struct FramebufferKey {

@@ -142,6 +142,23 @@ const Type& typeOf(GLenum type) {
   return known == std::end(kTypes) ? kOther : *known;
 }
 
+// Of one float or vector; 0 for all else.
+int floatsOf(const Uniform& uniform) {
+  if (uniform.count != 1) return 0;
+  switch (uniform.type) {
+    case GL_FLOAT:
+      return 1;
+    case GL_FLOAT_VEC2:
+      return 2;
+    case GL_FLOAT_VEC3:
+      return 3;
+    case GL_FLOAT_VEC4:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
 }  // namespace
 
 // Reads what the program uses and gives samplers, images and blocks their binding points.
@@ -159,7 +176,8 @@ struct Reflector {
       std::string key = name(program, GL_UNIFORM, index);
       const bool array = key.ends_with("[0]");
       if (array) key.resize(key.size() - 3);
-      const Uniform uniform{values[0], static_cast<GLenum>(values[1]), values[2]};
+      Uniform uniform{values[0], static_cast<GLenum>(values[1]), values[2]};
+      if (floatsOf(uniform) > 0) glGetUniformfv(program, uniform.location, uniform.initial.data());
       switch (typeOf(uniform.type).opaque) {
         case Opaque::No:
           result.uniforms[key] = uniform;
@@ -192,6 +210,15 @@ struct Reflector {
     }
   }
 
+  void inputs() {
+    for (const auto& [name, uniform] : result.uniforms)
+      result.inputs.push_back({name, uniform.count == 1 ? typeOf(uniform.type).name : "other"});
+    for (const auto* slots : {&result.samplers, &result.images})
+      for (const auto& slot : *slots) result.inputs.push_back({slot.name, typeOf(slot.type).name});
+    for (const auto* blocks : {&result.uniformBlocks, &result.storageBlocks})
+      for (const auto& block : *blocks) result.inputs.push_back({block.name, "block"});
+  }
+
  private:
   void slots(std::vector<Program::Reflection::Slot>& list, const std::string& key, bool array,
              const Uniform& uniform) {
@@ -211,15 +238,32 @@ Program::~Program() {
   --device_->impl().objects.programs;
 }
 
-std::vector<ProgramInput> Program::inputs() const {
-  std::vector<ProgramInput> inputs;
+const std::vector<ProgramInput>& Program::inputs() const {
+  return reflection_->inputs;
+}
+
+bool Program::includes(std::string_view file) const {
+  return std::ranges::find(reflection_->files, file) != reflection_->files.end();
+}
+
+void Program::reset() const {
   for (const auto& [name, uniform] : reflection_->uniforms)
-    inputs.push_back({name, uniform.count == 1 ? typeOf(uniform.type).name : "other"});
-  for (const auto* slots : {&reflection_->samplers, &reflection_->images})
-    for (const auto& slot : *slots) inputs.push_back({slot.name, typeOf(slot.type).name});
-  for (const auto* blocks : {&reflection_->uniformBlocks, &reflection_->storageBlocks})
-    for (const auto& block : *blocks) inputs.push_back({block.name, "block"});
-  return inputs;
+    switch (const GLfloat* values = uniform.initial.data(); floatsOf(uniform)) {
+      case 1:
+        glProgramUniform1fv(id_, uniform.location, 1, values);
+        break;
+      case 2:
+        glProgramUniform2fv(id_, uniform.location, 1, values);
+        break;
+      case 3:
+        glProgramUniform3fv(id_, uniform.location, 1, values);
+        break;
+      case 4:
+        glProgramUniform4fv(id_, uniform.location, 1, values);
+        break;
+      default:
+        break;
+    }
 }
 
 const Uniform* Program::find(std::string_view name) const {
@@ -322,6 +366,7 @@ void Device::take(Program& program, std::uint32_t linked) {
   Reflector reflector{program.id_, *program.reflection_};
   reflector.uniforms();
   reflector.blocks();
+  reflector.inputs();
 }
 
 Result<std::uint32_t> Device::link(Program& program) {

@@ -47,7 +47,12 @@ class Program {
   bool usable() const { return id_ != 0; }
   const ProgramDesc& desc() const { return desc_; }
   // What the linked program reads, for whoever binds by names that are data; empty if unusable.
-  std::vector<ProgramInput> inputs() const;
+  const std::vector<ProgramInput>& inputs() const;
+  // Whether the file went into it, itself or by #include.
+  bool includes(std::string_view file) const;
+
+  // Floats and vectors (no arrays) are again what the shader initialises them with.
+  void reset() const;
 
   void set(std::string_view name, float value) const;
   void set(std::string_view name, int value) const;

@@ -15,6 +15,9 @@ constexpr std::array kBlocks = {"ViewBlock", "LightBlock", "ObjectBlock", "DrawO
 constexpr std::array kTextures = {
     "albedoTexture",    "emissiveTexture", "normalTexture", "metallicRoughnessTexture",
     "occlusionTexture", "specularTexture", "albedoCube",    "emissiveCube"};
+// What the files that a custom shader includes declare for the renderer to set.
+constexpr std::array kUniforms = {"time", "ambientScale"};
+constexpr const char* kInterface = "render/custom_shader.glsl";
 
 std::string typeOf(const scene::CustomShader::Parameter& parameter) {
   return parameter.size == 1 ? "float" : fmt::format("vec{}", parameter.size);
@@ -74,16 +77,36 @@ const gpu::Program* CustomPrograms::of(const scene::Scene& scene, const scene::M
   if (material.alphaMode == scene::AlphaMode::Mask) desc.defines["ALPHA_TEST"] = "1";
   if (usesTextureEnvironment(material)) desc.defines["TEXTURE_ENVIRONMENT"] = "1";
   const gpu::ProgramPtr program = device_.program(desc);  // the device keeps it
-  if (!program->usable() || !takesParameters(*program, material) ||
-      !hasAllInputs(*program, scene, material))
+  if (!program->usable() || !isCustomShader(*program, material) ||
+      !takesParameters(*program, material) || !hasAllInputs(*program, scene, material))
     return nullptr;
+  program->reset();  // to what a material with the same shader left there
   for (const auto& parameter : material.shader.parameters) set(*program, parameter);
   program->set("time", static_cast<float>(time));
   return program.get();
 }
 
+bool CustomPrograms::isCustomShader(const gpu::Program& program, const scene::Material& material) {
+  if (!program.includes(kInterface)) {
+    refuse(material, fmt::format("it does not include \"{}\"; wanted that and a function "
+                                 "vec3 radianceOf(Surface s)",
+                                 kInterface));
+    return false;
+  }
+  for (const auto& parameter : material.shader.parameters)
+    if (isAmong(kUniforms, parameter.name)) return refuseOwnName(material, parameter.name);
+  for (const auto& texture : material.shader.textures)
+    if (isAmong(kTextures, texture.name)) return refuseOwnName(material, texture.name);
+  return true;
+}
+
+bool CustomPrograms::refuseOwnName(const scene::Material& material, const std::string& name) {
+  refuse(material, fmt::format("'{}' is set by Lucerna; wanted a name of the shader's own", name));
+  return false;
+}
+
 bool CustomPrograms::takesParameters(const gpu::Program& program, const scene::Material& material) {
-  const std::vector<gpu::ProgramInput> inputs = program.inputs();
+  const std::vector<gpu::ProgramInput>& inputs = program.inputs();
   for (const auto& parameter : material.shader.parameters) {
     const auto input = std::ranges::find(inputs, parameter.name, &gpu::ProgramInput::name);
     if (input == inputs.end()) {

@@ -21,9 +21,11 @@ class CustomPrograms {
   const gpu::Program* of(const scene::Scene& scene, const scene::Material& material, double time);
 
  private:
+  bool isCustomShader(const gpu::Program& program, const scene::Material& material);
   bool takesParameters(const gpu::Program& program, const scene::Material& material);
   bool hasAllInputs(const gpu::Program& program, const scene::Scene& scene,
                     const scene::Material& material);
+  bool refuseOwnName(const scene::Material& material, const std::string& name);
   void refuse(const scene::Material& material, const std::string& problem);
 
   gpu::Device& device_;

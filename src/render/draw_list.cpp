@@ -30,6 +30,9 @@ void bindSlot(gpu::Rendering& rendering, const GpuScene& gpuScene, const char* n
 
 void bindTextures(gpu::Rendering& rendering, const GpuScene& gpuScene,
                   const scene::Material& material) {
+  // First: a name that is taken stays the material's.
+  for (const scene::CustomShader::Picture& picture : material.shader.textures)
+    bindSlot(rendering, gpuScene, picture.name.c_str(), {.texture = picture.texture}, picture.data);
   bindSlot(rendering, gpuScene, "albedoTexture", "albedoCube", material.albedoTexture);
   bindSlot(rendering, gpuScene, "emissiveTexture", "emissiveCube", material.emissiveTexture);
   bindSlot(rendering, gpuScene, "normalTexture", material.normalTexture, true);
@@ -37,8 +40,6 @@ void bindTextures(gpu::Rendering& rendering, const GpuScene& gpuScene,
            true);
   bindSlot(rendering, gpuScene, "occlusionTexture", material.occlusionTexture, true);
   bindSlot(rendering, gpuScene, "specularTexture", material.specularTexture, false);
-  for (const scene::CustomShader::Picture& picture : material.shader.textures)
-    bindSlot(rendering, gpuScene, picture.name.c_str(), {.texture = picture.texture}, picture.data);
 }
 
 std::uint32_t cornersOf(gpu::Topology topology) {

@@ -8,9 +8,7 @@ ObjectPrograms::ObjectPrograms(gpu::Device& device, std::string fragment,
       desc_{.vertex = "render/object.vert",
             .fragment = std::move(fragment),
             .compute = {},
-            .defines = std::move(defines)} {
-  variants_[0] = device_.program(desc_);
-}
+            .defines = std::move(defines)} {}
 
 const gpu::Program& ObjectPrograms::of(const scene::Material& material) {
   const bool alphaTest = material.alphaMode == scene::AlphaMode::Mask;

@@ -50,6 +50,15 @@ class CustomShaders : public ::testing::Test {
     wall.shader.parameters = {{.name = "tint", .size = 3, .value = vec4(tint, 0)}};
     return wall;
   }
+  static scene::Texture greyTexture() {
+    scene::Texture texture;
+    texture.image = std::make_shared<const Image>([] {
+      Image image(1, 1, 4, ComponentType::U8);
+      std::ranges::fill(image.as<std::uint8_t>(), std::uint8_t{128});
+      return image;
+    }());
+    return texture;
+  }
   // Makes the object added last a cube of the given side at a place.
   void asCube(vec3 center, float side) {
     scene::Node& node = scene_.nodes[scene_.objects.back().node];
@@ -131,13 +140,7 @@ TEST_F(CustomShaders, HaveHolesAndOpacityLikeOthers) {
 }
 
 TEST_F(CustomShaders, ReadTexturesParametersAndTheObjectsOwnSpace) {
-  scene::Texture texture;
-  texture.image = std::make_shared<const Image>([] {
-    Image image(1, 1, 4, ComponentType::U8);
-    std::ranges::fill(image.as<std::uint8_t>(), std::uint8_t{128});
-    return image;
-  }());
-  scene_.textures.push_back(texture);
+  scene_.textures.push_back(greyTexture());
   scene::Material& wall = testing::addWall(scene_, 3.f);
   wall.shader.file = shader("inputs.frag",
                             "uniform sampler2D stored;\nuniform sampler2D encoded;\n"
@@ -154,6 +157,31 @@ TEST_F(CustomShaders, ReadTexturesParametersAndTheObjectsOwnSpace) {
   EXPECT_NEAR(found.x, 128. / 255., 1e-3);
   EXPECT_NEAR(found.y, 0.2159, 1e-3) << "128 of sRGB";
   EXPECT_NEAR(found.z, 0.5 + 1 + 2 + 4 + 8, 1e-2) << "the wall's front is z = 0.5 of its cube";
+}
+
+TEST_F(CustomShaders, KeepTheirParametersToThemselves) {
+  const std::string file = shader("glow.frag",
+                                  "uniform vec3 glow = vec3(0, 1, 0);\n"
+                                  "vec3 radianceOf(Surface s) { return glow; }\n");
+  for (const bool stated : {true, false}) {
+    for (const float x : {-0.6f, 0.6f}) {
+      scene::Material& wall = testing::addWall(scene_, 3.f);
+      asCube({x, 0, -3}, 1.f);
+      wall.shader.file = file;
+      if ((x < 0) == stated)
+        wall.shader.parameters = {{.name = "glow", .size = 3, .value = vec4(5, 0, 0, 0)}};
+    }
+    testing::SceneRenderer renderer(scene_);
+    for (int frame = 0; frame < 2; ++frame) {
+      const auto output = renderer.render(testing::rows(kAfter.rows), kSize, {kAfter.value});
+      ASSERT_TRUE(output) << output.error().message;
+      const Image& image = output->kept.at(kAfter.value);
+      const vec3 left = testing::colorAt(image, 12, 16), right = testing::colorAt(image, 20, 16);
+      EXPECT_EQ(left, stated ? vec3(5, 0, 0) : vec3(0, 1, 0)) << frame;
+      EXPECT_EQ(right, stated ? vec3(0, 1, 0) : vec3(5, 0, 0)) << frame;
+    }
+    scene_ = testing::emptyScene();
+  }
 }
 
 TEST_F(CustomShaders, IncludeFilesThatStandBesideThem) {
@@ -176,6 +204,25 @@ TEST_F(CustomShaders, ThatLackTheirFunctionDoNotLink) {
 
 TEST_F(CustomShaders, WhoseFileIsGoneSayWhich) {
   EXPECT_THAT(faultOf("/nowhere/at/all.frag"), HasSubstr("/nowhere/at/all.frag"));
+}
+
+TEST_F(CustomShaders, ThatAreWholeProgramsAreRefused) {
+  const fs::path file = fs::path(::testing::TempDir()) / "lucerna_custom_shaders" / "whole.frag";
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << "uniform int time;\nlayout(location = 0) out vec4 color;\n"
+                         "void main() { color = vec4(time); }\n";
+  EXPECT_THAT(faultOf(file.string()), AllOf(HasSubstr("render/custom_shader.glsl"),
+                                            HasSubstr("radianceOf"), HasSubstr("whole.frag")));
+}
+
+TEST_F(CustomShaders, CannotTakeLucernasNames) {
+  scene::Material& wall = addCustomWall(3.f, vec3(1.f));
+  wall.shader.parameters = {{.name = "time", .size = 1, .value = vec4(5)}};
+  EXPECT_THAT(fault(), HasSubstr("'time'"));
+  wall.shader.parameters.clear();
+  scene_.textures.push_back(greyTexture());
+  wall.shader.textures = {{.name = "normalTexture", .texture = 0, .data = true}};
+  EXPECT_THAT(fault(), HasSubstr("'normalTexture'"));
 }
 
 TEST_F(CustomShaders, MustFitTheirParametersAndTextures) {
