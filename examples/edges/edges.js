@@ -4,6 +4,7 @@ pipeline({name: "edges", output: "Edges.color"});
 pass("Cull");
 const g = pass("GBuffer");
 pass("Lighting");
+pass("CustomShaders");
 pass("Background");
 pass("Transparency");
 const toned = pass("ToneMap");

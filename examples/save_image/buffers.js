@@ -7,6 +7,7 @@ pass("SaveImage", {name: "Albedo", reads: {color: g.albedo}, file: "albedo-%04d.
 pass("SaveImage", {name: "Normal", reads: {color: g.normal}, file: "normal-%04d.exr"});
 pass("SaveImage", {name: "Depth", reads: {color: g.depth}, file: "depth-%04d.exr"});
 pass("Lighting");
+pass("CustomShaders");
 pass("Background");
 pass("Transparency");
 pass("ToneMap");

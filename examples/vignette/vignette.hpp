@@ -3,6 +3,7 @@
 
 #include "gpu/device.hpp"
 #include "graph/pass_info.hpp"
+#include "render/view_data.hpp"
 
 class Vignette {
  public:
@@ -10,6 +11,7 @@ class Vignette {
     float strength = 0.7f;
   };
   struct Ports {
+    lucerna::graph::In<lucerna::render::ViewData> view;
     lucerna::graph::In<lucerna::gpu::Texture> input;
     lucerna::graph::Out<lucerna::gpu::Texture> output;
   };

@@ -4,6 +4,7 @@ pipeline({name: "vignette"});
 pass("Cull");
 pass("GBuffer");
 pass("Lighting");
+pass("CustomShaders");
 pass("Background");
 pass("Transparency");
 pass("Vignette", {strength: 0.9});

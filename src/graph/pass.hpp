@@ -21,7 +21,7 @@ struct PassContext {
   std::uint64_t frame = 0;
   int view = 0;  // index of the view being drawn
   int viewCount = 1;
-  uvec2 outputSize{0};  // pixels of the view's output
+  uvec2 outputSize{0};  // pixels of what is drawn of the view: all of it, or a tile
   std::uint64_t seed = 0;
 };
 

@@ -74,6 +74,9 @@ class NewPassTest(outside.OutsideTest):
         program = self.link("lucerna", OBJECTS)
         self.succeed(COPY / "tools" / "pass_pages", "--check", "--lucerna", program)
         self.succeed(COPY / "tools" / "make_figures", f"src/passes/{FOLDER}/README.md", cwd=COPY)
+        figure = COPY / "src" / "passes" / FOLDER / f"{FOLDER}.js"
+        self.assert_whole_deferred_picture(program, figure)
+        self.assert_joins_in_tiles(MADE, program, "--pipeline", figure)
         for check in ("check_links", "check_layers", "check_shaders"):
             self.succeed(COPY / "tools" / check, COPY)
 

@@ -1,4 +1,5 @@
 """What the tests of this folder share: the three paths they are given, and running commands."""
+import json
 import os
 import pathlib
 import subprocess
@@ -21,6 +22,24 @@ class OutsideTest(unittest.TestCase):
         run = self.run_command(*words, cwd=cwd, **environment)
         self.assertEqual(run.returncode, 0, f"{words}\n{run.stdout}\n{run.stderr}")
         return run.stdout
+
+    def assert_whole_deferred_picture(self, program, pipeline, *options):
+        """The pipeline has all rows of deferred.js, in its order."""
+        def rows(name, *more):
+            printed = self.succeed(program, "pipeline", "print", name, "--json", *more)
+            return [row["type"] for row in json.loads(printed)["rows"]]
+        found = iter(rows(pipeline, *options))
+        for wanted in rows(SOURCE / "pipelines" / "deferred.js"):
+            self.assertIn(wanted, found, f"{pipeline} lacks {wanted}, or has it too early")
+
+    def assert_joins_in_tiles(self, folder, program, *options):
+        """A picture of an even background, drawn in tiles, is the picture drawn at once."""
+        scene, whole, tiled = (folder / name for name in ("even.json", "whole.png", "tiled.png"))
+        scene.write_text('{"lucerna": "scene/1", "background": {"color": [0.5, 0.4, 0.3]}}')
+        render = [program, "render", scene, "--size", "100x60", *options]
+        self.succeed(*render, "-o", whole)
+        self.succeed(*render, "--tile", "32", "-o", tiled)
+        self.assertEqual(whole.read_bytes(), tiled.read_bytes())
 
     def fail_with(self, code, *wanted, command):
         """One message on stderr that holds every word."""

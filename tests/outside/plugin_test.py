@@ -52,6 +52,15 @@ class PluginTest(outside.OutsideTest):
         self.fail_with(1, "differs", command=[LUCERNA, "compare", pictures["without"], pictures["dark"],
                                               "--fail-above", "0.05"])
 
+    def test_it_joins_in_tiles(self):
+        self.assert_joins_in_tiles(self.folder, LUCERNA, "--plugin", VIGNETTE, "--pipeline", EXAMPLE / "vignette.js")
+
+    def test_examples_draw_all_that_the_deferred_picture_holds(self):
+        examples = sorted(EXAMPLE.parent.glob("*/*.js"))
+        self.assertGreaterEqual(len(examples), 3)
+        for pipeline in examples:
+            self.assert_whole_deferred_picture(LUCERNA, pipeline, "--plugin", VIGNETTE)
+
     def test_what_is_no_library_is_refused(self):
         self.refused(self.folder / "missing.so", 3, "missing.so", "No such file")
         self.refused(self.folder, 3, "wanted a plugin")
