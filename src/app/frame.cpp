@@ -92,9 +92,9 @@ Status checkTiles(const graph::Plan& plan, const graph::Reach& reach) {
   if (!reach.whole.empty())
     return error(
         ErrorKind::Usage,
-        "'{}' may read the whole picture, which a tile does not show; say by the row's halo "
-        "how many pixels around the one drawn it reads, or draw without tiles",
-        reach.whole);
+        "'{}' may need the whole picture, which a tile does not show: {}; change that, or draw "
+        "without tiles",
+        reach.whole, reach.why);
   for (const graph::ResolvedRow& row : plan.rows)
     if (!row.culled &&
         std::ranges::all_of(row.description.ports, [](const graph::PortDescription& port) {

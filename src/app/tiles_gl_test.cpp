@@ -134,7 +134,7 @@ TEST_F(TilesTest, APassThatMayLookAnywhereIsRefused) {
   const Status status = tryRender((folder_ / "a.png").string(), {});
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::Usage);
-  EXPECT_THAT(status.error().message, HasSubstr("'Sum.color' may read the whole picture"));
+  EXPECT_THAT(status.error().message, HasSubstr("'Sum.color' may need the whole picture"));
 }
 
 TEST_F(TilesTest, ARowThatWritesFilesIsRefused) {

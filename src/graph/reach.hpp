@@ -9,12 +9,15 @@ namespace lucerna::graph {
 
 struct Reach {
   int pixels = 0;       // of the output, in every direction
-  std::string whole{};  // an input that may read everywhere, "Edges.color"; "" if there is none
+  std::string whole{};  // a port that needs all of the picture, "Edges.color"; "" if none does
+  std::string why{};    // what makes it so
 };
 
 // Of the output and the kept values, over all passes on the way to them: the sum of the inputs'
-// halos. What has a size of its own, whatever the output's (a shadow map), is no picture and counts
-// nothing.
+// halos. The whole picture is needed by an input that states no halo; by one from which something
+// of a size of its own is made (a mean luminance; a shadow map, if it is made per view); by one
+// whose halo adds up, as it lies on a circle that a history input closes; and by a picture that is
+// made once for all views.
 Reach reachOf(const Plan& plan);
 
 }  // namespace lucerna::graph

@@ -172,12 +172,14 @@ std::string rowPlace(const Pipeline& pipeline, std::size_t index) {
 std::optional<Problem> typeProblem(const PortDescription& input, const Source& source,
                                    const std::string& name) {
   const auto mismatch = [&](FaultKind kind) {
+    const char* orElse = input.direction == Direction::InOut
+                             ? "move this row before the pass that made it"
+                             : "put a pass that converts it between";
     return Problem{.kind = kind,
                    .found = fmt::format("{}, {}", name, source.type.text()),
                    .wanted = input.type.text(),
-                   .remedy = fmt::format("bind '{}' to another value by \"reads\", or put a pass "
-                                         "that converts it between",
-                                         input.name)};
+                   .remedy = fmt::format("bind '{}' to another value by \"reads\", or {}",
+                                         input.name, orElse)};
   };
   if (input.direction == Direction::InOut && source.kind == Source::Kind::Resource)
     return Problem{.kind = FaultKind::TypeMismatch,

@@ -136,7 +136,7 @@ class Validator {
     Frequency writer = Frequency::PerScene;
     if (source.kind == Source::Kind::Output)
       writer = descriptions_[source.row]->frequency;
-    else if (source.kind == Source::Kind::Resource && registry_.resource(source.port)->perView)
+    else if (source.perView)
       writer = Frequency::PerView;
     if (writer > reader)
       report(index, where,

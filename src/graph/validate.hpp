@@ -24,6 +24,7 @@ struct Source {
   // Fill: size of what it stands in for; of Kind::Port: of the output `size.port` of row `sizeRow`.
   SizeRule size;
   std::size_t sizeRow = 0;
+  bool perView = false;  // Resource
 
   bool sameAs(const Source& other) const {
     return kind == other.kind && row == other.row && port == other.port;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/text.hpp"
-#include "graph/row_check.hpp"
 
 namespace lucerna::graph {
 namespace {
@@ -25,6 +24,7 @@ Source resourceSource(const ResourceDescription& resource) {
   source.kind = Source::Kind::Resource;
   source.port = resource.name;
   source.type = resource.type;
+  source.perView = resource.perView;
   return source;
 }
 
@@ -87,9 +87,6 @@ Binding Wiring::byName(std::size_t row, const PortDescription& port) {
     if (!out) continue;
     if (pipeline_.passes[i].enabled) {
       Binding binding = bound(output(i, *out));
-      // Who may make the value does so where the one at hand is of another kind.
-      const bool mayMake = port.direction == Direction::InOut && port.optional;
-      if (mayMake && typeProblem(port, binding.source, port.name)) return {};
       if (!disabled.empty())
         binding.warning = producerChange(disabled.front(), port, binding.source);
       return binding;

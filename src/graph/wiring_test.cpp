@@ -84,12 +84,18 @@ TEST_F(Wiring, AnOptionalUpdateMakesTheValueWhereThereIsNone) {
   EXPECT_EQ(source({make("A"), "Start", "Show"}), "Start.a");
   EXPECT_EQ(updated({make("A"), "Start", "Show"}), "A.a");
   EXPECT_EQ(updated({"Start", "Show"}), "-");
-  EXPECT_EQ(updated({"Float", "Start", "Show"}), "-") << "it cannot update another format";
   EXPECT_EQ(updated({FakeRow("White").off(), "Start", "Show"}), "fill White.a");
   EXPECT_EQ(source({"Start", "Update", "Show"}), "Update.a");
   // Disabled, it repeats what it would update; else its own stand-in counts.
   EXPECT_EQ(source({make("A"), FakeRow("Start").off(), "Show"}), "A.a");
   EXPECT_EQ(source({FakeRow("Start").off(), "Show"}), "fill Start.a");
+}
+
+// Else a row in the wrong place would begin a new picture, and the one so far were lost.
+TEST_F(Wiring, AnOptionalUpdateOfAnotherFormatIsAFault) {
+  EXPECT_THAT(updated({"Float", "Start", "Show"}),
+              testing::AllOf(testing::HasSubstr("pass 'Start', input 'a' [FormatMismatch]"),
+                             testing::HasSubstr("found:  'Float.a', a 2D texture (R32Float)")));
 }
 
 TEST_F(Wiring, DisabledRowThatPassesThrough) {

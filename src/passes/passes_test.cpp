@@ -112,6 +112,18 @@ TEST(ShippedRows, InAnOrderThatReadsBeforeWritingAreRefused) {
   EXPECT_FALSE(validation.ok());
 }
 
+// They would begin another picture, in black.
+TEST(ShippedRows, ThatDrawRadianceAreRefusedBehindToneMap) {
+  for (const char* last : {"Lighting", "CustomShaders", "Transparency", "Background"}) {
+    SCOPED_TRACE(last);
+    EXPECT_THAT(
+        validated(rows({"Cull", "GBuffer", "Forward", "ToneMap", last})).text(),
+        ::testing::AllOf(::testing::HasSubstr("input 'color' [FormatMismatch]"),
+                         ::testing::HasSubstr("'ToneMap.color', a 2D texture (Rgba8Unorm)"),
+                         ::testing::HasSubstr("move this row before the pass that made it")));
+  }
+}
+
 TEST(ShippedRows, ThatDrawOverAPictureWantItsDepthBufferAsLarge) {
   graph::Pipeline pipeline =
       rows({"Cull", "GBuffer", "Lighting", "Fullscreen", "Transparency", "ToneMap"});
