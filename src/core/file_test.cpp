@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include "core/test_folder.hpp"
+
 namespace lucerna {
 namespace {
 
@@ -14,19 +16,12 @@ using testing::HasSubstr;
 
 class FileTest : public testing::Test {
  protected:
-  FileTest() {
-    folder_ =
-        fs::temp_directory_path() / ("lucerna_file_test_" + std::to_string(::getpid()) + "_" +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  ~FileTest() override { fs::remove_all(folder_); }
-
   int entries() const {
     return static_cast<int>(std::distance(fs::directory_iterator(folder_), {}));
   }
 
-  fs::path folder_;
+  TestFolder own_;
+  fs::path folder_ = own_.path();
 };
 
 TEST_F(FileTest, WritesAndReadsTheSameBytes) {

@@ -3,7 +3,10 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include <cerrno>
 #include <cstdlib>
+
+#include "core/text.hpp"
 
 namespace lucerna {
 namespace {
@@ -20,7 +23,48 @@ std::filesystem::path ownFile() {
   return std::filesystem::canonical(isLibrary ? loaded->l_name : "/proc/self/exe", code);
 }
 
+constexpr const char* kIncomplete = "a part of Lucerna is missing: build or install it again";
+constexpr int kNotLoaded = 127;  // the code of a program whose libraries are missing
+
+Status statusOf(const ChildOutput& child, const WorkerTask& task) {
+  using End = ChildOutput::End;
+  const auto failure = [&](ErrorKind kind, std::string_view remedy) {
+    return error(kind, "{} {}; {}", task.name, describeEnd(child, task.limits), remedy);
+  };
+  switch (child.end) {
+    case End::Cancelled:
+      return error(ErrorKind::Cancelled, "{} was cancelled", task.name);
+    case End::NotStarted:
+      return failure(ErrorKind::Failed,
+                     child.status == ENOENT
+                         ? kIncomplete
+                         : "may it be executed, and are memory and processes left?");
+    case End::TimedOut:
+    case End::OutOfMemory:
+    case End::TooMuchOutput:
+      return failure(task.kind, task.remedyAtLimit.empty() ? task.remedy : task.remedyAtLimit);
+    case End::Exited:
+      if (child.status == 0) return {};
+      if (child.status == kNotLoaded)
+        return error(ErrorKind::Failed, "{} could not be started ({}); {}", task.name,
+                     split(child.err, '\n').front(), kIncomplete);
+      if (child.status == static_cast<int>(ErrorKind::Input) && !child.err.empty())
+        return Error{task.kind, child.err};
+      break;
+    case End::Signalled:
+      break;
+  }
+  return failure(task.kind, task.remedy);
+}
+
 }  // namespace
+
+WorkerAnswer runWorker(const WorkerTask& task) {
+  ChildOutput child = runChild(workerProgram(), task.arguments, task.input, task.limits);
+  Status status = statusOf(child, task);
+  if (child.end == ChildOutput::End::NotStarted) child.err.clear();  // our own words
+  return {std::move(status), std::move(child.out), std::move(child.err)};
+}
 
 std::filesystem::path workerProgram() {
   if (const char* named = std::getenv("LUCERNA_WORKER"); named && *named) return named;

@@ -1,11 +1,9 @@
 #include "script/script.hpp"
 
-#include <cerrno>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "core/child_process.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/text.hpp"
@@ -21,20 +19,6 @@ constexpr std::uint64_t kMaxSourceBytes = 4ull << 20;
 constexpr ChildLimits kLimits{
     .time = std::chrono::seconds(5), .residentBytes = 512ull << 20, .outputBytes = 16ull << 20};
 
-std::string remedyFor(const ChildOutput& child) {
-  using End = ChildOutput::End;
-  const End end = child.end;
-  if (end == End::NotStarted && child.status == ENOENT)
-    return "a part of Lucerna is missing: build or install it again";
-  if (end == End::TimedOut || end == End::OutOfMemory || end == End::TooMuchOutput)
-    return fmt::format(
-        "a script may take {} s, {} MiB of memory and {} MiB of output: look for a loop that does "
-        "not end",
-        kLimits.time.count() / 1000, kLimits.residentBytes >> 20, kLimits.outputBytes >> 20);
-  return "the script engine needs about 1 GiB of address space; is there a limit (ulimit -v), or "
-         "too little memory?";
-}
-
 }  // namespace
 
 Result<graph::Pipeline> runPipelineScript(const std::string& path, const ScriptInput& input) {
@@ -48,17 +32,22 @@ Result<graph::Pipeline> runPipelineSource(const std::string& source, const std::
       {"source", source}, {"file", name}, {"params", input.params}, {"seed", input.seed}};
   // A file that is not UTF-8 still runs: what is not text becomes U+FFFD.
   const std::string text = request.dump(-1, ' ', false, Json::error_handler_t::replace);
-  const ChildOutput child =
-      runChild(workerProgram(), {"script"}, std::as_bytes(std::span(text)), kLimits);
-  if (child.end != ChildOutput::End::NotStarted)
-    for (const std::string& line : split(child.err, '\n'))
-      if (!line.empty()) log::info("{}: {}", name, line);
-  if (child.end == ChildOutput::End::Cancelled)
-    return error(ErrorKind::Cancelled, "{}: cancelled", name);
-  if (child.end != ChildOutput::End::Exited || child.status != 0)
-    return error(ErrorKind::Pipeline, "{}: the script {}; {}", name, describeEnd(child, kLimits),
-                 remedyFor(child));
-  return pipelineFromAnswer({reinterpret_cast<const char*>(child.out.data()), child.out.size()},
+  const WorkerAnswer answer = runWorker(
+      {.arguments = {"script"},
+       .input = std::as_bytes(std::span(text)),
+       .limits = kLimits,
+       .name = name + ": the script",
+       .kind = ErrorKind::Pipeline,
+       .remedy = "the script engine needs about 1 GiB of address space; is there a limit (ulimit "
+                 "-v), or too little memory?",
+       .remedyAtLimit = fmt::format(
+           "a script may take {} s, {} MiB of memory and {} MiB of output: look for a loop that "
+           "does not end",
+           kLimits.time.count() / 1000, kLimits.residentBytes >> 20, kLimits.outputBytes >> 20)});
+  for (const std::string& line : split(answer.err, '\n'))
+    if (!line.empty()) log::info("{}: {}", name, line);
+  LUCERNA_TRY_VOID(answer.status);
+  return pipelineFromAnswer({reinterpret_cast<const char*>(answer.out.data()), answer.out.size()},
                             name, input);
 }
 

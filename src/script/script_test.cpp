@@ -145,6 +145,7 @@ TEST(Script, AMissingWorkerIsNamedWithTheWayOut) {
   const auto made = runPipelineSource("pass('Cull')", "a.js", {});
   setenv("LUCERNA_WORKER", before.c_str(), 1);
   ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().kind, ErrorKind::Failed);  // the script is not to blame
   EXPECT_THAT(made.error().message,
               AllOf(HasSubstr("/nowhere/lucerna_worker"), HasSubstr("build or install it again")));
 }

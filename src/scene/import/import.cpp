@@ -5,22 +5,6 @@
 #include "scene/import/scene_stream.hpp"
 
 namespace lucerna::scene {
-namespace {
-
-Error describeFailure(const std::filesystem::path& path, const ChildOutput& output,
-                      const ChildLimits& limits) {
-  if (output.end == ChildOutput::End::Cancelled)
-    return error(ErrorKind::Cancelled, "{}: reading was cancelled", path.string());
-  if (output.end == ChildOutput::End::Exited &&
-      output.status == static_cast<int>(ErrorKind::Input) && !output.err.empty())
-    return {ErrorKind::Input, output.err};
-  return error(ErrorKind::Input,
-               "{}: the reader of this file {}; wanted a valid file of that kind; check it, or "
-               "export it again, for example as glTF",
-               path.string(), describeEnd(output, limits));
-}
-
-}  // namespace
 
 ChildLimits importLimits(std::uint64_t fileBytes) {
   // Of a million triangles, assimp reads 25 bytes a microsecond of any format, and takes at most 17
@@ -39,18 +23,21 @@ Result<Scene> importScene(const std::filesystem::path& path) {
   const std::uint64_t size = std::filesystem::file_size(path, code);
   if (code)
     return error(ErrorKind::Input, "{}: {}; wanted a readable file", path.string(), code.message());
-  const ChildLimits limits = importLimits(size);
-  ChildOutput output = runChild(workerProgram(), {"import", path.string()}, {}, limits);
-  if (output.end != ChildOutput::End::Exited || output.status != 0)
-    return describeFailure(path, output, limits);
-
-  Result<ImportedScene> imported = readStream(output.out);
+  WorkerAnswer answer =
+      runWorker({.arguments = {"import", path.string()},
+                 .limits = importLimits(size),
+                 .name = path.string() + ": the reader of this file",
+                 .kind = ErrorKind::Input,
+                 .remedy = "wanted a valid file of that kind; check it, or export it again, for "
+                           "example as glTF"});
+  LUCERNA_TRY_VOID(answer.status);
+  Result<ImportedScene> imported = readStream(answer.out);
   if (!imported)
     return error(ErrorKind::Input,
                  "{}: the reader of this file gave a scene that {}; wanted a valid file; check it, "
                  "or export it again, for example as glTF",
                  path.string(), imported.error().message);
-  output.out = {};
+  answer.out = {};
   loadTextures(*imported, path.parent_path());
   Scene scene = std::move(imported->scene);
   if (scene.objects.empty())
