@@ -42,11 +42,7 @@ void readParameter(const std::string& name, const JsonValue& from, CustomShader&
 void readShaderTexture(const std::string& name, const JsonValue& from, JsonPictures& pictures,
                        CustomShader& shader) {
   if (!from.object({"file", "faces", "wrap", "data"})) return;
-  if (from.has("file") == from.has("faces"))
-    return from.wrong("\"file\" or six \"faces\", one of them");
-  CustomShader::Picture picture{.name = name};
-  picture.texture = from.has("file") ? pictures.add(from.at("file"), readWrap(from))
-                                     : pictures.addCube(from.at("faces"));
+  CustomShader::Picture picture{.name = name, .texture = pictures.read(from)};
   from.read("data", picture.data);
   if (picture.texture != kNone) shader.textures.push_back(std::move(picture));
 }

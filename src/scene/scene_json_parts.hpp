@@ -22,6 +22,9 @@ class JsonPictures {
   // Index in those textures, or kNone after a fault.
   std::uint32_t add(const JsonValue& file, Wrap wrap = Wrap::ClampToEdge);
   std::uint32_t addCube(const JsonValue& sixFiles);
+  // What "file" or "faces" names, or else the material's `texture`; with "wrap", which is Repeat of
+  // a "file" unless given. kNone after a fault.
+  std::uint32_t read(const JsonValue& from, std::uint32_t texture = kNone);
   bool isCube(std::uint32_t texture) const { return load_.textures[texture].isCube(); }
   // Reports and returns false where no other file may be read.
   bool mayRead(const JsonValue& file) const;
@@ -30,14 +33,13 @@ class JsonPictures {
  private:
   std::shared_ptr<const Image> load(const JsonValue& file, const std::string& name);
   std::uint32_t addTexture(Texture texture);
+  std::uint32_t wrapped(std::uint32_t texture, Wrap wrap);
 
   std::filesystem::path folder_;
   SceneLoad& load_;
   std::map<std::string, std::uint32_t> known_;
 };
 
-// "wrap": Repeat unless given.
-Wrap readWrap(const JsonValue& from);
 // A texture of a material. The keys were checked.
 void readSlot(const JsonValue& from, JsonPictures& pictures, TextureSlot& slot);
 

@@ -171,6 +171,45 @@ TEST_F(SceneJson, MaterialsTakeTexturesCombinesAndGeneratedCoordinates) {
   EXPECT_TRUE(usesTextureEnvironment(paint));
 }
 
+// What an outer JSON makes of textures that an inner one gave.
+TEST_F(SceneJson, AFileReplacesATextureOfAnyKindAndWrapAloneChangesItsEdges) {
+  writePicture("a.png", 4, 2);
+  writePicture("b.png", 2, 2);
+  write("inner.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+    "materials": {"paint": {
+      "albedoTexture": {"file": "a.png", "coordinates": "eye-linear", "scale": [2, 3]},
+      "emissiveTexture": {"faces": ["b.png", "b.png", "b.png", "b.png", "b.png", "b.png"]}}}})");
+  const auto read = [&](const std::string& albedo, const std::string& emissive) {
+    write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "inner.json"}], "materials":
+      {"paint": {"albedoTexture": )" +
+                        albedo + R"(, "emissiveTexture": )" + emissive + "}}}");
+    auto scene = loadScene(path("s.json"));
+    EXPECT_TRUE(scene) << scene.error().message;
+    return scene ? *scene : Scene();
+  };
+  Scene scene = read(R"({"file": "b.png"})", R"({"file": "b.png", "wrap": "clamp"})");
+  TextureSlot albedo = scene.materials.at(0).albedoTexture;
+  TextureSlot emissive = scene.materials[0].emissiveTexture;
+  EXPECT_EQ(scene.textures[albedo.texture].image->width(), 2);
+  EXPECT_EQ(scene.textures[albedo.texture].wrapS, Wrap::Repeat);
+  EXPECT_EQ(albedo.coordinates, Coordinates::Mesh);
+  EXPECT_EQ(albedo.scale, vec2(2, 3)) << "stays as it was";
+  EXPECT_FALSE(scene.textures[emissive.texture].isCube());
+  EXPECT_EQ(scene.textures[emissive.texture].wrapT, Wrap::ClampToEdge);
+  EXPECT_EQ(emissive.coordinates, Coordinates::Mesh);
+
+  scene = read(R"({"wrap": "mirror"})", R"({"file": "a.png", "wrap": "mirror"})");
+  albedo = scene.materials.at(0).albedoTexture;
+  emissive = scene.materials[0].emissiveTexture;
+  EXPECT_EQ(scene.textures[albedo.texture].image->width(), 4);
+  EXPECT_EQ(scene.textures[albedo.texture].wrapS, Wrap::MirroredRepeat);
+  EXPECT_EQ(albedo.coordinates, Coordinates::EyeLinear) << "stays as it was";
+  EXPECT_EQ(scene.textures[emissive.texture].wrapS, Wrap::MirroredRepeat);
+
+  scene = read(R"({"wrap": "repeat"})", R"({"rotation": 30})");
+  EXPECT_EQ(scene.textures.size(), 2u) << "no copy of what repeats already";
+}
+
 TEST_F(SceneJson, MaterialsBringShadersWithParametersAndTextures) {
   writePicture("grain.png", 2, 2);
   write("rock.frag", "vec3 radianceOf(Surface s) { return shade(s); }\n");
@@ -204,6 +243,9 @@ TEST_F(SceneJson, MaterialsBringShadersWithParametersAndTextures) {
   EXPECT_THAT(fault(R"({"file": "rock.frag", "parameters": {"a": [1, "b"]}})"),
               HasSubstr("wanted a number"));
   EXPECT_THAT(fault(R"({"file": "rock.frag", "textures": {"a": {}}})"), HasSubstr("\"faces\""));
+  EXPECT_THAT(fault(R"({"file": "rock.frag", "textures": {"a": {"wrap": "clamp", "faces":
+      ["grain.png", "grain.png", "grain.png", "grain.png", "grain.png", "grain.png"]}}})"),
+              HasSubstr("textures/a/wrap: found \"clamp\", wanted nothing"));
 }
 
 TEST_F(SceneJson, TexturesThatDoNotFitAreFaults) {
@@ -225,6 +267,12 @@ TEST_F(SceneJson, TexturesThatDoNotFitAreFaults) {
               HasSubstr("\"reflection\""));
   EXPECT_THAT(fault("{\"faces\": [" + five + "\"flat.png\"]}"), HasSubstr("4 x 2"));
   EXPECT_THAT(fault(R"({"faces": ["face.png"]})"), HasSubstr("six pictures"));
+  EXPECT_THAT(fault("{\"faces\": [" + five + R"("face.png"], "wrap": "mirror"})"),
+              HasSubstr("albedoTexture/wrap: found \"mirror\", wanted nothing: a cube map"));
+  EXPECT_THAT(fault("{\"faces\": [" + five + R"("face.png"], "wrap": 5})"),
+              HasSubstr("albedoTexture/wrap: found 5, wanted"));
+  EXPECT_THAT(fault(R"({"file": "flat.png", "wrap": "clam"})"), HasSubstr("'clamp'"));
+  EXPECT_THAT(fault(R"({"wrap": "clamp"})"), HasSubstr("found no picture"));
 }
 
 TEST_F(SceneJson, AnglesAreDegreesAndTheFirstCameraIsTheJsons) {

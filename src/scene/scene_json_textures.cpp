@@ -1,4 +1,7 @@
 // Pictures of a scene JSON, and how materials use them.
+#include <algorithm>
+#include <optional>
+
 #include "core/text.hpp"
 #include "scene/scene_json_parts.hpp"
 #include "scene/texture_store.hpp"
@@ -16,13 +19,13 @@ bool isFaceLike(const Image& face, const Image& first) {
          isFloat(face) == isFloat(first);
 }
 
-}  // namespace
-
-Wrap readWrap(const JsonValue& from) {
+std::optional<Wrap> readWrap(const JsonValue& from) {
   int wrap = 0;
-  from.readChoice("wrap", {"repeat", "mirror", "clamp"}, wrap);
+  if (!from.readChoice("wrap", {"repeat", "mirror", "clamp"}, wrap)) return std::nullopt;
   return static_cast<Wrap>(wrap);
 }
+
+}  // namespace
 
 bool JsonPictures::mayRead(const JsonValue& file) const {
   if (load_.outsideFiles != OutsideFiles::Refuse) return true;
@@ -79,24 +82,48 @@ std::uint32_t JsonPictures::addCube(const JsonValue& sixFiles) {
   return known_[key] = addTexture(std::move(texture));
 }
 
+std::uint32_t JsonPictures::read(const JsonValue& from, std::uint32_t texture) {
+  const std::optional<Wrap> wrap = readWrap(from);
+  if (from.has("file") && from.has("faces")) {
+    from.wrong("both \"file\" and \"faces\"", "one of them");
+    return kNone;
+  }
+  if (from.has("file")) return add(from.at("file"), wrap.value_or(Wrap::Repeat));
+  if (from.has("faces"))
+    texture = addCube(from.at("faces"));
+  else if (texture == kNone)
+    from.wrong("no picture", "\"file\" or six \"faces\"");
+  if (!wrap || texture == kNone) return texture;
+  if (!isCube(texture)) return wrapped(texture, *wrap);
+  from.at("wrap").wrong("nothing: a cube map has no edges");
+  return kNone;
+}
+
+// Other materials may share the texture, so the wrap is that of a copy, which shares the picture.
+std::uint32_t JsonPictures::wrapped(std::uint32_t texture, Wrap wrap) {
+  Texture copy = load_.textures[texture];
+  copy.wrapS = copy.wrapT = wrap;
+  const auto same = [&](const Texture& other) {
+    return other.image == copy.image && other.wrapS == wrap && other.wrapT == wrap &&
+           other.nearest == copy.nearest && !other.isCube();
+  };
+  const auto known = std::find_if(load_.textures.begin(), load_.textures.end(), same);
+  if (known == load_.textures.end()) return addTexture(std::move(copy));
+  return static_cast<std::uint32_t>(known - load_.textures.begin());
+}
+
 std::uint32_t JsonPictures::addTexture(Texture texture) {
   load_.textures.push_back(std::move(texture));
   return static_cast<std::uint32_t>(load_.textures.size() - 1);
 }
 
 void readSlot(const JsonValue& from, JsonPictures& pictures, TextureSlot& slot) {
-  if (from.has("file") && from.has("faces"))
-    return from.wrong("both \"file\" and \"faces\"", "one of them");
-  if (from.has("file")) slot.texture = pictures.add(from.at("file"), readWrap(from));
-  if (from.has("faces")) {
-    slot.texture = pictures.addCube(from.at("faces"));
-    slot.coordinates = Coordinates::Reflection;
-  }
-  if (slot.texture == kNone) {
-    if (!from.has("file") && !from.has("faces"))
-      from.wrong("no texture of the material there", "\"file\" or six \"faces\"");
-    return;
-  }
+  const std::uint32_t texture = pictures.read(from, slot.texture);
+  if (texture == kNone) return;
+  slot.texture = texture;
+  const bool cube = pictures.isCube(texture);
+  if (from.has("file") || from.has("faces"))
+    slot.coordinates = cube ? Coordinates::Reflection : Coordinates::Mesh;
   int choice = 0;
   if (from.readChoice("coordinates",
                       {"mesh", "object-linear", "eye-linear", "sphere-map", "reflection"}, choice))
@@ -106,7 +133,6 @@ void readSlot(const JsonValue& from, JsonPictures& pictures, TextureSlot& slot) 
   from.read("offset", slot.offset);
   from.read("scale", slot.scale);
   from.readDegrees("rotation", slot.rotation, {-360.f, 360.f});
-  const bool cube = pictures.isCube(slot.texture);
   if (cube != (slot.coordinates == Coordinates::Reflection))
     from.wrong(cube ? "six \"faces\"" : "\"coordinates\": \"reflection\"",
                cube ? "\"coordinates\": \"reflection\" with them" : "six \"faces\" for it");
