@@ -7,6 +7,7 @@
 
 #include "app/frame.hpp"
 #include "app/frame_writer.hpp"
+#include "app/row_files.hpp"
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
@@ -23,6 +24,7 @@ struct Options {
 Json document(const app::Session& session, const app::FrameWriter& writer, double seconds) {
   Json files = Json::array();
   for (const auto& path : writer.written()) files.push_back(path.string());
+  for (const auto& path : session.rowFiles) files.push_back(path.string());
   std::vector<std::string> warnings = session.scene.warnings;
   const auto& ofPipeline = session.executor->warnings();
   warnings.insert(warnings.end(), ofPipeline.begin(), ofPipeline.end());
@@ -82,6 +84,8 @@ Result<int> render(const Options& options, bool json) {
   const std::string& profilePath = options.render.profile;
   if (!profilePath.empty()) LUCERNA_TRY_VOID(app::ProfileLog::checkPath(profilePath));
   LUCERNA_TRY(session, app::openSession(options.render, writer.layers()));
+  LUCERNA_TRY_VOID(
+      app::checkRowFiles(session->pipeline, session->registry, writer.name(), options.render));
   app::ProfileLog profile(profileSubject(*session));
   const Status drawn = renderFrames(*session, writer, profilePath.empty() ? nullptr : &profile);
   // What was drawn before Ctrl-C is whole and stays, with its profile.

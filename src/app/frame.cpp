@@ -154,7 +154,9 @@ Status runSteps(Session& s, const graph::Executor::OnView& take) {
                                                 changes.materials || !changes.movedObjects.empty(),
                                 .shared = std::move(shared),
                                 .views = views};
-  return s.executor->execute(input, take);
+  const Status drawn = s.executor->execute(input, take);
+  s.rowFiles.insert(s.executor->written().begin(), s.executor->written().end());
+  return drawn;
 }
 
 // Presents or writes.

@@ -41,7 +41,7 @@ Result<FrameName> FrameName::parse(const std::string& pattern, std::uint64_t fra
                  "-o: {} frames would all be written to '{}'; put a frame number into the name, "
                  "like frame-%04d.png",
                  frames, pattern);
-  return FrameName(std::move(path).value(), kind);
+  return FrameName(pattern, std::move(path).value(), kind);
 }
 
 }  // namespace lucerna::app

@@ -17,10 +17,13 @@ class FrameName {
 
   std::filesystem::path at(std::uint64_t frame) const { return path_.at(frame); }
   OutputKind kind() const { return kind_; }
+  const std::string& pattern() const { return pattern_; }  // as given
 
  private:
-  FrameName(NumberedPath path, OutputKind kind) : path_(std::move(path)), kind_(kind) {}
+  FrameName(std::string pattern, NumberedPath path, OutputKind kind)
+      : pattern_(std::move(pattern)), path_(std::move(path)), kind_(kind) {}
 
+  std::string pattern_;
   NumberedPath path_;
   OutputKind kind_;
 };

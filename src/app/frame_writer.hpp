@@ -26,6 +26,7 @@ class FrameWriter {
   // Ends a video with the frames written so far; without it there is none.
   Status finish();
   const std::vector<std::filesystem::path>& written() const { return written_; }
+  const FrameName& name() const { return name_; }
 
  private:
   explicit FrameWriter(FrameName name) : name_(std::move(name)) {}

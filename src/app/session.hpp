@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,9 +49,10 @@ struct Session {
   std::uint64_t frame = 0;  // index of the next frame
   bool rebuild = true;      // the schedule does not fit the pipeline yet
   bool watch = false;       // reload shaders and pipeline when their files change; for a viewer
-  bool pipelineChanged = false;             // its file, and that is not in `pipeline` yet
-  std::vector<std::string> changedShaders;  // that wait for a pipeline that fits them
-  int glMessages = 0;                       // debug messages of severity medium or above
+  bool pipelineChanged = false;              // its file, and that is not in `pipeline` yet
+  std::vector<std::string> changedShaders;   // that wait for a pipeline that fits them
+  std::set<std::filesystem::path> rowFiles;  // written by rows of the pipeline so far
+  int glMessages = 0;                        // debug messages of severity medium or above
 
   double time() const { return settings.time + static_cast<double>(frame) * settings.timeStep; }
 };

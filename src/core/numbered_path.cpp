@@ -1,5 +1,7 @@
 #include "core/numbered_path.hpp"
 
+#include <charconv>
+
 namespace lucerna {
 
 Result<NumberedPath> NumberedPath::parse(const std::string& pattern) {
@@ -37,6 +39,29 @@ Result<NumberedPath> NumberedPath::parse(const std::string& pattern) {
 std::filesystem::path NumberedPath::at(std::uint64_t number) const {
   if (!numbered()) return before_;
   return fmt::format("{}{:0{}}{}", before_, number, digits_, after_);
+}
+
+NumberedPath NumberedPath::ofView(int view) const {
+  NumberedPath result = *this;
+  std::string& end = numbered() ? result.after_ : result.before_;
+  const std::size_t dot = end.rfind('.');
+  end.insert(dot == std::string::npos ? end.size() : dot, fmt::format("-view{}", view));
+  return result;
+}
+
+bool NumberedPath::meets(const NumberedPath& other, std::uint64_t count) const {
+  for (std::uint64_t number = 0; number < (numbered() ? count : 1); ++number)
+    if (other.names(at(number).string(), count)) return true;
+  return false;
+}
+
+bool NumberedPath::names(const std::string& path, std::uint64_t count) const {
+  if (!numbered()) return path == before_;
+  if (!path.starts_with(before_)) return false;
+  std::uint64_t number = 0;
+  const char* begin = path.data() + before_.size();
+  const auto [end, fault] = std::from_chars(begin, path.data() + path.size(), number);
+  return fault == std::errc() && number < count && path == at(number);
 }
 
 }  // namespace lucerna

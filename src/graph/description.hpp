@@ -34,6 +34,7 @@ struct ParamDescription {
   std::vector<std::string> choices{};  // of Choice
   std::size_t size = 1;                // numbers in a Color (3) or Vector
   Rebuild rebuild = Rebuild::Nothing;
+  bool writesFile = false;  // of Text: a file that the row writes, %04d being the frame's number
   std::string help{};
 };
 

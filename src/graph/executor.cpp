@@ -107,7 +107,8 @@ struct Executor::Impl {
   std::size_t currentView = 0;
   bool profiling = false;
   FrameProfile profile;
-  std::vector<std::string> warnings;  // of the pipeline
+  std::vector<std::filesystem::path> written;  // in the last frame
+  std::vector<std::string> warnings;           // of the pipeline
 };
 
 Status Executor::Impl::setPipeline(const Pipeline& next, uvec2 size,
@@ -279,6 +280,7 @@ Status Executor::Impl::execute(const FrameInput& input, const OnView& onView) {
   for (std::size_t s = 0; s < firstPerView; ++s)
     if (perSceneRuns || schedule.steps[s].frequency != Frequency::PerScene) runStep(s, context);
   const Status drawn = runViews(input, context, onView);
+  written = std::move(context.written);
   rebuilt = rebuilt && !drawn;
   if (profiling) finishProfile();
   return drawn;
@@ -431,6 +433,10 @@ const gpu::Texture* Executor::kept(std::string_view name) const {
 void Executor::setProfiling(bool on) {
   impl_->profiling = on;
 }
+const std::vector<std::filesystem::path>& Executor::written() const {
+  return impl_->written;
+}
+
 const FrameProfile& Executor::profile() const {
   return impl_->profile;
 }

@@ -1,6 +1,7 @@
 // Runs a pipeline on a Device, frame after frame.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -84,6 +85,9 @@ class Executor {
   // A kept value of the view just drawn, as named in setPipeline; valid inside onView. Null if that
   // is not a texture.
   const gpu::Texture* kept(std::string_view name) const;
+
+  // Files that passes wrote in the last frame.
+  const std::vector<std::filesystem::path>& written() const;
 
   void setProfiling(bool on);
   const FrameProfile& profile() const;  // of the last frame

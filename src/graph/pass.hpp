@@ -1,9 +1,11 @@
 // The run-time face of a pass, whether it was declared by a C++ struct, a script or a plugin.
 #pragma once
 
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "graph/description.hpp"
 
@@ -23,6 +25,7 @@ struct PassContext {
   int viewCount = 1;
   uvec2 outputSize{0};  // pixels of what is drawn of the view: all of it, or a tile
   std::uint64_t seed = 0;
+  std::vector<std::filesystem::path> written{};  // files; who writes one adds it
 };
 
 // One bound port: exactly one pointer is set, none if unbound. For data, `data` points to the T

@@ -72,6 +72,10 @@ class ParamBuilder {
     d_->type = ParamType::File;
     return *this;
   }
+  ParamBuilder& writesFile() {  // of a std::string; ParamDescription says more
+    d_->writesFile = true;
+    return *this;
+  }
 
  private:
   ParamDescription* d_;

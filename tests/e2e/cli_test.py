@@ -408,7 +408,9 @@ class CliTest(unittest.TestCase):
         example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "save_image" / "buffers.js"
         self.assert_ok(self.lucerna("pipeline", "check", example))
         self.assertEqual(list(self.folder.iterdir()), [])
-        self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", example, "--frames", 2, "-o", "p-%d.png"))
+        run = self.lucerna("render", ATRIUM, *SMALL, "--pipeline", example, "--frames", 2, "-o", "p-%d.png", "--json")
+        self.assert_ok(run)
+        self.assertEqual(sorted(json.loads(run.stdout)["files"]), sorted(path.name for path in self.folder.iterdir()))
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()),
                          [f"{name}-000{frame}.{kind}" for name, kind in
                           (("albedo", "png"), ("depth", "exr"), ("normal", "exr")) for frame in (0, 1)] +
@@ -421,6 +423,15 @@ class CliTest(unittest.TestCase):
         self.assertEqual(run.returncode, 1)
         self.assertIn("/proc/a.exr: cannot be written", run.stderr)
         self.assertFalse((self.folder / "q.png").exists())
+
+    def test_a_row_does_not_write_over_another_files(self):
+        example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "save_image" / "buffers.js"
+        for setting, writers in (("Albedo.file=out.png", "-o and 'Albedo'"),
+                                 ("Depth.file=normal-%04d.exr", "'Normal' and 'Depth'")):
+            run = self.lucerna("render", ATRIUM, *SMALL, "--pipeline", example, "--set", setting, "-o", "out.png")
+            self.assertEqual(run.returncode, 2, run.stderr)
+            self.assertIn(writers, run.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
 
     def interrupted(self, started, *arguments):
         """Runs until `started` matches a file with more than a header, interrupts, and expects exit code

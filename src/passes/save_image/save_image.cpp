@@ -8,6 +8,7 @@ namespace lucerna::passes {
 void SaveImage::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("SaveImage", "Writes a texture to a picture file, at its place in the list.");
   d.param("file", &Params::file)
+      .writesFile()
       .rebuilds(graph::Rebuild::Ports)
       .help(
           "A .png, .exr or .hdr file, relative to the working directory; %04d in the name is the "
@@ -32,6 +33,8 @@ void SaveImage::execute(graph::PassContext& context, const Params& params, const
   const auto path = file->at(context.frame, context.view, context.viewCount);
   if (const Status written = file->write(path, content); !written)
     context.device.reportError(written.error());
+  else
+    context.written.push_back(path);
 }
 
 }  // namespace lucerna::passes

@@ -105,11 +105,7 @@ Result<SavedFile> SavedFile::parse(const std::string& pattern) {
 }
 
 std::filesystem::path SavedFile::at(std::uint64_t frame, int view, int viewCount) const {
-  std::filesystem::path path = path_.at(frame);
-  if (viewCount > 1)
-    path.replace_filename(
-        fmt::format("{}-view{}{}", path.stem().string(), view, path.extension().string()));
-  return path;
+  return viewCount > 1 ? path_.ofView(view).at(frame) : path_.at(frame);
 }
 
 std::vector<gpu::Format> SavedFile::formats() const {
