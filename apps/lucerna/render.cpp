@@ -164,7 +164,7 @@ void addRender(CommandLine& line) {
           [options](const std::string& type) {
             options->output.exrType = type == "float" ? ComponentType::F32 : ComponentType::Half;
           },
-          "half or float (half); depth is always float")
+          "of EXR: half or float (half); depth is always float")
       ->check(oneOf({"half", "float"}));
   addVideoFlags(*command, options);
   command

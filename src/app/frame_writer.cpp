@@ -32,14 +32,18 @@ bool holdsLinear(OutputKind kind) {
   return kind == OutputKind::Exr || kind == OutputKind::Hdr;
 }
 
-Status checkVideoFlags(const OutputSettings& output, OutputKind kind) {
-  const char* flag = output.fps        ? "--fps"
-                     : output.crf      ? "--crf"
-                     : output.lossless ? "--lossless"
-                                       : nullptr;
-  if (kind == OutputKind::Video || !flag) return {};
-  return error(ErrorKind::Usage, "{}: '{}' is no video; give -o NAME.mp4 or NAME.mkv", flag,
-               output.path);
+Status checkFlags(const OutputSettings& output, OutputKind kind) {
+  const char* ofVideo = output.fps        ? "--fps"
+                        : output.crf      ? "--crf"
+                        : output.lossless ? "--lossless"
+                                          : nullptr;
+  if (ofVideo && kind != OutputKind::Video)
+    return error(ErrorKind::Usage, "{}: '{}' is no video; give -o NAME.mp4 or NAME.mkv", ofVideo,
+                 output.path);
+  const char* ofExr = !output.layers.empty() ? "--layers" : output.exrType ? "--exr-type" : nullptr;
+  if (ofExr && kind != OutputKind::Exr)
+    return error(ErrorKind::Usage, "{}: '{}' is no EXR file; give -o NAME.exr", ofExr, output.path);
+  return {};
 }
 
 // The whole picture is put together in memory, as the readers of such files will do.
@@ -73,18 +77,15 @@ Status checkStereo(const StereoSettings& stereo, const std::vector<LayerKind>& l
 Result<FrameWriter> FrameWriter::create(const OutputSettings& output,
                                         const RenderSettings& settings) {
   LUCERNA_TRY(name, FrameName::parse(output.path, settings.frames));
-  LUCERNA_TRY_VOID(checkVideoFlags(output, name.kind()));
+  LUCERNA_TRY_VOID(checkFlags(output, name.kind()));
   LUCERNA_TRY_VOID(checkFolderOf(name.at(0), "-o"));
   FrameWriter writer(std::move(name));
-  writer.exrType_ = output.exrType;
+  writer.exrType_ = output.exrType.value_or(writer.exrType_);
   for (const std::string& layer : output.layers) {
     LUCERNA_TRY(kind, layerFromName(layer));
     if (std::find(writer.layers_.begin(), writer.layers_.end(), kind) == writer.layers_.end())
       writer.layers_.push_back(kind);
   }
-  if (!output.layers.empty() && writer.name_.kind() != OutputKind::Exr)
-    return error(ErrorKind::Usage, "--layers: '{}' holds one picture; layers need -o NAME.exr",
-                 output.path);
   if (writer.layers_.empty() && holdsLinear(writer.name_.kind()))
     writer.layers_.push_back(LayerKind::Color);
   writer.wanted_ = writer.layers_;

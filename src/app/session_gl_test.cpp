@@ -27,7 +27,7 @@ class SessionTest : public testing::Test {
 
   // Renders settings_ into `name` and returns the path of the first frame.
   std::string render(const std::string& name, std::vector<std::string> layers = {},
-                     ComponentType type = ComponentType::Half) {
+                     std::optional<ComponentType> type = {}) {
     const OutputSettings output{
         .path = folder_ / name, .layers = std::move(layers), .exrType = type};
     auto writer = FrameWriter::create(output, settings_);

@@ -58,10 +58,10 @@ Result<uvec2> sizeFromText(const std::string& text);
 struct OutputSettings {
   std::string path;                 // .png .exr .hdr, with %04d for several frames; .mp4 .mkv
   std::vector<std::string> layers;  // of EXR; empty: colour only
-  ComponentType exrType = ComponentType::Half;
-  std::optional<double> fps{};  // of videos; one frame a time step if absent
-  std::optional<int> crf{};     // of H.264, 0 (best) to 51; VideoSettings' own if absent
-  bool lossless = false;        // videos: FFV1 instead of H.264
+  std::optional<ComponentType> exrType{};  // of EXR: Half or F32; Half if absent
+  std::optional<double> fps{};             // of videos; one frame a time step if absent
+  std::optional<int> crf{};                // of H.264, 0 (best) to 51; VideoSettings' own if absent
+  bool lossless = false;                   // videos: FFV1 instead of H.264
 };
 
 }  // namespace lucerna::app

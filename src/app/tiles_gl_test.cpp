@@ -30,9 +30,9 @@ class ViewsTest : public testing::Test {
   }
 
   Status tryRender(const std::string& path, const std::vector<std::string>& layers) {
-    LUCERNA_TRY(writer,
-                FrameWriter::create({.path = path, .layers = layers, .exrType = ComponentType::F32},
-                                    settings_));
+    OutputSettings output{.path = path, .layers = layers};
+    if (path.ends_with(".exr")) output.exrType = ComponentType::F32;
+    LUCERNA_TRY(writer, FrameWriter::create(output, settings_));
     LUCERNA_TRY(session, openSession(settings_, writer.layers()));
     LUCERNA_TRY_VOID(
         runFrame(*session, nullptr, [&](Session& s, int view, const gpu::Texture& texture) {

@@ -7,6 +7,7 @@
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavformat/avformat.h>
+#include <libavutil/imgutils.h>
 #include <libavutil/opt.h>
 #include <libswscale/swscale.h>
 }
@@ -20,6 +21,8 @@ namespace {
 constexpr int kLargestRateTerm = 60000;  // holds 24000/1001 and the like
 constexpr double kLeastRate = 1e-3, kGreatestRate = 1e3;
 constexpr int kGreatestCrf = 51;
+constexpr int kGreatestH264Side = 16384;  // px; x264's own limit
+constexpr int kLeastFfv1Side = 3;         // px; smaller pictures do not come back as they were
 // Frames that x264 looks ahead; they are all the memory that it gathers.
 constexpr const char* kLookahead = "20";
 
@@ -48,6 +51,38 @@ bool hasExtension(const std::filesystem::path& path, const char* extension) {
 
 int even(int side) {
   return side + side % 2;
+}
+
+// What libavcodec asks first: (width + 128) (height + 128) stays below 2^28.
+bool fitsCodecs(const VideoSettings& settings) {
+  return av_image_check_size(static_cast<unsigned>(settings.width),
+                             static_cast<unsigned>(settings.height), 0, nullptr) >= 0;
+}
+
+Status checkVideoSize(const std::filesystem::path& path, const VideoSettings& settings) {
+  const int width = settings.width, height = settings.height;
+  if (!fitsCodecs(settings))
+    return error(ErrorKind::Usage,
+                 "{}: a video's picture has at most some 260 million pixels, found {}x{}; make it "
+                 "smaller, or write pictures",
+                 path.string(), width, height);
+  if (settings.codec == VideoCodec::Ffv1) {
+    if (std::min(width, height) >= kLeastFfv1Side) return {};
+    return error(ErrorKind::Usage,
+                 "{}: lossless video (FFV1) takes sides of at least {} px, found {}x{}; make it "
+                 "larger",
+                 path.string(), kLeastFfv1Side, width, height);
+  }
+  if (std::max(width, height) > kGreatestH264Side)
+    return error(ErrorKind::Usage,
+                 "{}: H.264 takes sides of at most {} px, found {}x{}; make it smaller, or "
+                 "lossless (FFV1) in an .mkv file",
+                 path.string(), kGreatestH264Side, width, height);
+  if (width % 2 == 0 && height % 2 == 0) return {};
+  return error(ErrorKind::Usage,
+               "{}: H.264 takes even sides, found {}x{}; make it {}x{}, or lossless (FFV1) in an "
+               ".mkv file",
+               path.string(), width, height, even(width), even(height));
 }
 
 AVPixelFormat pixelFormat(VideoCodec codec) {
@@ -100,15 +135,12 @@ bool isVideoName(const std::filesystem::path& path) {
 }
 
 Status checkVideo(const std::filesystem::path& path, const VideoSettings& settings) {
+  // Our own messages say what matters; libav's own go to stderr unasked.
+  av_log_set_level(AV_LOG_QUIET);
   const bool h264 = settings.codec == VideoCodec::H264;
   if (!h264 && !hasExtension(path, ".mkv"))
     return error(ErrorKind::Usage, "{}: lossless video (FFV1) is written as .mkv", path.string());
-  if (h264 && (settings.width % 2 != 0 || settings.height % 2 != 0))
-    return error(ErrorKind::Usage,
-                 "{}: H.264 takes even sides, found {}x{}; make it {}x{}, or lossless (FFV1) in an "
-                 ".mkv file",
-                 path.string(), settings.width, settings.height, even(settings.width),
-                 even(settings.height));
+  LUCERNA_TRY_VOID(checkVideoSize(path, settings));
   if (!(settings.framesPerSecond >= kLeastRate && settings.framesPerSecond <= kGreatestRate))
     return error(ErrorKind::Usage, "{}: {:g} frames a second, wanted {:g} to {:g}", path.string(),
                  settings.framesPerSecond, kLeastRate, kGreatestRate);
@@ -123,12 +155,14 @@ struct VideoWriter::Impl {
       : file(std::move(target)), name(std::move(shownName)), settings(wanted) {}
 
   Error failed(const char* what, int code) const {
-    return error(ErrorKind::Failed, "{}: {}: {}; check the free space", name, what, reason(code));
+    return error(ErrorKind::Failed, "{}: {}: {}", name, what, reason(code));
+  }
+  Error notWritten(int code) const {
+    return error(ErrorKind::Failed, "{}: writing failed: {}; check the free space", name,
+                 reason(code));
   }
 
   Status open() {
-    // Our own messages say what matters; libav's own go to stderr unasked.
-    av_log_set_level(AV_LOG_QUIET);
     LUCERNA_TRY_VOID(openCodec());
     return openFile();
   }
@@ -176,7 +210,7 @@ struct VideoWriter::Impl {
                    "{}: cannot be written: {}; check that the folder exists and is writable", name,
                    reason(code));
     if (const int code = avformat_write_header(format.get(), nullptr); code < 0)
-      return failed("writing failed", code);
+      return notWritten(code);
     return {};
   }
 
@@ -192,8 +226,8 @@ struct VideoWriter::Impl {
       packet->duration = 1;
       av_packet_rescale_ts(packet.get(), codec->time_base, stream->time_base);
       if (const int written = av_interleaved_write_frame(format.get(), packet.get()); written < 0)
-        return failed("writing failed", written);
-      if (format->pb->error < 0) return failed("writing failed", format->pb->error);
+        return notWritten(written);
+      if (format->pb->error < 0) return notWritten(format->pb->error);
     }
   }
 
@@ -246,9 +280,8 @@ Status VideoWriter::finish() {
   CHECK(video.count > 0, "{}: a video without pictures", video.name);
   LUCERNA_TRY_VOID(video.encode(nullptr));
   if (const int code = av_write_trailer(video.format.get()); code < 0)
-    return video.failed("writing failed", code);
-  if (const int code = avio_closep(&video.format->pb); code < 0)
-    return video.failed("writing failed", code);
+    return video.notWritten(code);
+  if (const int code = avio_closep(&video.format->pb); code < 0) return video.notWritten(code);
   return video.file.commit();
 }
 

@@ -12,7 +12,9 @@ namespace lucerna {
 enum class VideoCodec { H264, Ffv1 };
 
 struct VideoSettings {
-  int width = 0, height = 0;    // px; even for H.264, whose colours have half the resolution
+  // px, some 260 million in all; of H.264 even, as its colours have half the resolution, and at
+  // most 16384; of FFV1 at least 3
+  int width = 0, height = 0;
   double framesPerSecond = 30;  // 0.001 to 1000
   VideoCodec codec = VideoCodec::H264;
   int crf = 18;  // H.264: constant rate factor, 0 to 51; 18 is hard to tell from the original

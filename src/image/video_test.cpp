@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <sys/resource.h>
+
 #include <cmath>
+#include <csignal>
 
 extern "C" {
 #include <libavcodec/avcodec.h>
@@ -164,6 +167,14 @@ TEST_F(VideoTest, Ffv1TakesOddSizes) {
   EXPECT_TRUE(std::ranges::equal(sent[0].bytes(), film.pictures[0].bytes()));
 }
 
+TEST_F(VideoTest, Ffv1TakesWhatIsTooWideForH264) {
+  constexpr int kWide = 20000;
+  const std::vector<Image> sent{picture(0, kWide, 3)};
+  const Film film = decoded(write("a.mkv", sent, {.codec = VideoCodec::Ffv1}));
+  ASSERT_EQ(film.pictures.size(), 1u);
+  EXPECT_TRUE(std::ranges::equal(sent[0].bytes(), film.pictures[0].bytes()));
+}
+
 TEST_F(VideoTest, ColorsAreThoseOfRec709) {
   for (const std::array<std::uint8_t, 3> color :
        {std::array<std::uint8_t, 3>{200, 40, 40}, {30, 180, 60}, {50, 60, 220}, {255, 255, 255}}) {
@@ -216,14 +227,44 @@ TEST_F(VideoTest, TheFileAppearsOnlyWhenItIsWhole) {
   EXPECT_EQ(entries(), 1);
 }
 
+// A full disk, as far as the program sees.
+TEST_F(VideoTest, AFileThatCannotGrowIsAFaultOfTheDisk) {
+  auto video = VideoWriter::create(folder_ / "a.mkv",
+                                   {.width = 640, .height = 480, .codec = VideoCodec::Ffv1});
+  ASSERT_TRUE(video);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit tight{.rlim_cur = 4096, .rlim_max = before.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &tight);
+  Status written;
+  for (int i = 0; i < 100 && written; ++i) written = video->add(picture(i, 640, 480));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  ASSERT_FALSE(written);
+  EXPECT_THAT(written.error().message, HasSubstr("writing failed"));
+  EXPECT_THAT(written.error().message, HasSubstr("check the free space"));
+}
+
 TEST_F(VideoTest, RefusesWhatItCannotWrite) {
   const auto faultOf = [](const fs::path& path, const VideoSettings& settings) {
     const auto video = VideoWriter::create(path, settings);
-    return video ? "it succeeded" : video.error().message;
+    if (video) return std::string("it succeeded");
+    EXPECT_EQ(video.error().kind,
+              checkVideo(path, settings) ? ErrorKind::Failed : ErrorKind::Usage);
+    return video.error().message;
   };
   const VideoSettings small{.width = kWidth, .height = kHeight};
   EXPECT_THAT(faultOf(folder_ / "a.mp4", {.width = 33, .height = 18}),
               HasSubstr("even sides, found 33x18; make it 34x18"));
+  EXPECT_THAT(
+      faultOf(folder_ / "a.mp4", {.width = 20000, .height = 12000}),
+      HasSubstr("at most 16384 px, found 20000x12000; make it smaller, or lossless (FFV1)"));
+  EXPECT_THAT(faultOf(folder_ / "a.mkv", {.width = 64, .height = 2, .codec = VideoCodec::Ffv1}),
+              HasSubstr("at least 3 px, found 64x2"));
+  for (const VideoCodec codec : {VideoCodec::H264, VideoCodec::Ffv1})
+    EXPECT_THAT(faultOf(folder_ / "a.mkv", {.width = 16384, .height = 16384, .codec = codec}),
+                HasSubstr("at most some 260 million pixels, found 16384x16384; make it smaller"));
   EXPECT_THAT(faultOf(folder_ / "a.mp4", {.width = 4, .height = 4, .codec = VideoCodec::Ffv1}),
               HasSubstr(".mkv"));
   EXPECT_THAT(faultOf(folder_ / "a.mp4", {.width = 4, .height = 4, .framesPerSecond = 1e5}),

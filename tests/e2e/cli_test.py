@@ -86,6 +86,7 @@ class CliTest(unittest.TestCase):
         fails("--threads", "0 to 1024", flags=["--threads", "many"])
         fails("--time-step", "'nan'", flags=["--time-step", "nan"])
         fails("--exr-type", "half or float", flags=["--exr-type", "double"])
+        fails("--exr-type", "'a.png' is no EXR file; give -o NAME.exr", flags=["--exr-type", "float"])
         fails("--camera excludes --camera-path", flags=["--camera", "0", "--camera-path", "p.json"])
         fails("--output", "more than one", flags=["-o", "b.png"])
         fails("ToneMap.exposure", "-20 to 20", flags=["--set", "ToneMap.exposure=99"])
