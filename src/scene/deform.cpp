@@ -1,13 +1,16 @@
 #include "scene/deform.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
+#include <utility>
 
 #include "core/math/transform.hpp"
 #include "core/parallel.hpp"
+#include "scene/extent.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
@@ -48,15 +51,24 @@ u8vec4 unorm(vec4 color) {
   return u8vec4(glm::clamp(color, 0.f, 1.f) * 255.f + 0.5f);
 }
 
+template <int N>
+bool finite(const glm::vec<N, float>& v) {
+  for (int i = 0; i < N; ++i)
+    if (!std::isfinite(v[i])) return false;
+  return true;
+}
+
 void morphSurface(const Mesh& rest, const Morph& morph, std::size_t i, Mesh& bent) {
-  for (std::size_t set = 0; set < 2; ++set)
-    if (morph.texCoords[set] && !rest.texCoords[set].empty())
-      bent.texCoords[set][i] =
-          morphed(rest.texCoords[set][i], morph, i,
-                  [&](const MorphTarget& t) -> const auto& { return t.texCoords[set]; });
-  if (morph.colors && !rest.colors.empty())
-    bent.colors[i] = unorm(morphed(vec4(rest.colors[i]) / 255.f, morph, i,
-                                   [](const MorphTarget& t) -> const auto& { return t.colors; }));
+  for (std::size_t set = 0; set < 2; ++set) {
+    if (!morph.texCoords[set] || rest.texCoords[set].empty()) continue;
+    const vec2 uv = morphed(rest.texCoords[set][i], morph, i,
+                            [&](const MorphTarget& t) -> const auto& { return t.texCoords[set]; });
+    bent.texCoords[set][i] = finite(uv) ? uv : rest.texCoords[set][i];
+  }
+  if (!morph.colors || rest.colors.empty()) return;
+  const vec4 color = morphed(vec4(rest.colors[i]) / 255.f, morph, i,
+                             [](const MorphTarget& t) -> const auto& { return t.colors; });
+  bent.colors[i] = finite(color) ? unorm(color) : rest.colors[i];
 }
 
 vec3 unitOr(vec3 v, vec3 fallback) {
@@ -73,7 +85,8 @@ mat4 blended(const Influences& influences, std::span<const mat4> joints, std::si
   return sum;
 }
 
-void bendVertex(const Mesh& rest, const Morph& morph, std::span<const mat4> joints, std::size_t i,
+// False if the vertex stays where it rests.
+bool bendVertex(const Mesh& rest, const Morph& morph, std::span<const mat4> joints, std::size_t i,
                 Mesh& bent) {
   vec3 position = morphed(rest.positions[i], morph, i,
                           [](const MorphTarget& t) -> const auto& { return t.positions; });
@@ -91,10 +104,12 @@ void bendVertex(const Mesh& rest, const Morph& morph, std::span<const mat4> join
     normal = normalMatrix(mat3(m)) * normal;
     tangent = mat3(m) * tangent;
   }
-  bent.positions[i] = position;
+  const bool bends = withinReach(position);
+  bent.positions[i] = bends ? position : rest.positions[i];
   if (!rest.normals.empty()) bent.normals[i] = unitOr(normal, rest.normals[i]);
   if (!rest.tangents.empty())
     bent.tangents[i] = vec4(unitOr(tangent, vec3(rest.tangents[i])), rest.tangents[i].w);
+  return bends;
 }
 
 Aabb boundsOf(const Mesh& mesh) {
@@ -139,6 +154,16 @@ std::optional<ShapeKey> shapeKey(const Object& object, const Mesh& mesh) {
                   skinned ? object.node : kNone};
 }
 
+// The mesh without what bends it, which can be many times larger and is not copied for a moment.
+Mesh atRest(Mesh& mesh) {
+  auto targets = std::exchange(mesh.targets, {});
+  auto influences = std::exchange(mesh.influences, {});
+  Mesh copy = mesh;
+  mesh.targets = std::move(targets);
+  mesh.influences = std::move(influences);
+  return copy;
+}
+
 std::uint64_t bytesOfStreams(const Mesh& mesh) {
   return mesh.positions.size() * sizeof(vec3) + mesh.normals.size() * sizeof(vec3) +
          mesh.tangents.size() * sizeof(vec4) + mesh.colors.size() * sizeof(u8vec4) +
@@ -148,17 +173,19 @@ std::uint64_t bytesOfStreams(const Mesh& mesh) {
 
 }  // namespace
 
-void bend(const Mesh& rest, std::span<const float> weights, std::span<const mat4> objectFromMesh,
-          Mesh& bent) {
+std::size_t bend(const Mesh& rest, std::span<const float> weights,
+                 std::span<const mat4> objectFromMesh, Mesh& bent) {
   const Morph morph = morphOf(rest, weights);
+  std::atomic<std::size_t> stay = 0;
   parallelFor(rest.positions.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      bendVertex(rest, morph, objectFromMesh, i, bent);
+      if (!bendVertex(rest, morph, objectFromMesh, i, bent)) ++stay;
       morphSurface(rest, morph, i, bent);
     }
   });
   if (rest.flat) makeNormals(bent);
   bent.bounds = boundsOf(bent);
+  return stay;
 }
 
 std::uint64_t bytesOfBent(const Scene& scene, std::span<const Mesh> meshes) {
@@ -166,8 +193,11 @@ std::uint64_t bytesOfBent(const Scene& scene, std::span<const Mesh> meshes) {
   std::uint64_t bytes = 0;
   for (const Object& object : scene.objects) {
     const Mesh& mesh = meshes[object.mesh];
-    if (const auto key = shapeKey(object, mesh); key && known.insert(*key).second)
-      bytes += bytesOfStreams(mesh);
+    const auto key = shapeKey(object, mesh);
+    if (!key || !known.insert(*key).second) continue;
+    const std::uint32_t skin = std::get<1>(*key);
+    bytes += bytesOfStreams(mesh) + mesh.targets.size() * sizeof(float);
+    if (skin != kNone) bytes += scene.skins[skin].joints.size() * sizeof(mat4);
   }
   return bytes;
 }
@@ -179,19 +209,18 @@ void addDeformations(Scene& scene) {
     keys.push_back(shapeKey(object, scene.meshes[object.mesh]));
     if (!keys.back()) drawnAtRest[object.mesh] = true;
   }
-  std::map<std::uint32_t, std::shared_ptr<const Mesh>> rests;
+  std::map<std::uint32_t, std::shared_ptr<Mesh>> rests;
   std::map<ShapeKey, std::uint32_t> bentMeshes;
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
     if (!keys[i]) continue;
     Object& object = scene.objects[i];
     const auto [known, isNew] = bentMeshes.emplace(*keys[i], object.mesh);
     if (isNew) {
-      std::shared_ptr<const Mesh>& rest = rests[object.mesh];
+      std::shared_ptr<Mesh>& rest = rests[object.mesh];
       const bool first = !rest;
-      if (first) rest = std::make_shared<const Mesh>(scene.meshes[object.mesh]);
-      Mesh bent = *rest;
-      bent.targets.clear();
-      bent.influences = {};
+      if (first) rest = std::make_shared<Mesh>(std::move(scene.meshes[object.mesh]));
+      Mesh bent = atRest(*rest);
+      if (first && drawnAtRest[object.mesh]) scene.meshes[object.mesh] = bent;
       // The first one takes the place of the mesh at rest, unless that is drawn too.
       if (!first || drawnAtRest[object.mesh]) {
         known->second = static_cast<std::uint32_t>(scene.meshes.size());
@@ -220,8 +249,13 @@ void updateDeformations(Scene& scene) {
     if (!fresh && joints == deformation.objectFromMesh && weights == deformation.weights) continue;
     deformation.objectFromMesh = std::move(joints);
     deformation.weights = std::move(weights);
-    bend(*deformation.rest, deformation.weights, deformation.objectFromMesh, bent);
+    const std::size_t stay =
+        bend(*deformation.rest, deformation.weights, deformation.objectFromMesh, bent);
     ++bent.version;
+    if (stay == 0 || std::exchange(deformation.beyondReach, true)) continue;
+    scene.warnings.push_back(
+        fmt::format("mesh '{}' is bent beyond reach: {} of its {} vertices stay where they rest",
+                    bent.name, stay, bent.positions.size()));
   }
 }
 

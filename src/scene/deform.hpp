@@ -49,16 +49,18 @@ struct Deformation {
   std::uint32_t morphNode = 0;  // whose weights the targets take
   std::vector<float> weights;
   std::vector<mat4> objectFromMesh;  // of each joint
+  bool beyondReach = false;          // told of already
 };
 
 // The rest mesh bent, into the vertex streams and bounds of `bent`, a copy of it. weights: one a
 // target; objectFromMesh: one a joint of the skin, or none. Linear blend skinning; normals by the
-// blended matrix's inverse transpose.
-void bend(const Mesh& rest, std::span<const float> weights, std::span<const mat4> objectFromMesh,
-          Mesh& bent);
+// blended matrix's inverse transpose. What would go beyond reach (scene/extent.hpp) or be no number
+// stays as it rests; returns how many vertices do.
+std::size_t bend(const Mesh& rest, std::span<const float> weights,
+                 std::span<const mat4> objectFromMesh, Mesh& bent);
 
-// What addDeformations() will take for bent meshes, of which each object that bends like no other
-// has one; `meshes` is what the scene's indices mean.
+// What addDeformations() will take for bent meshes and their poses, of which each object that bends
+// like no other has one; `meshes` is what the scene's indices mean.
 std::uint64_t bytesOfBent(const Scene& scene, std::span<const Mesh> meshes);
 // Scene::deformations of the objects that bend. For complete().
 void addDeformations(Scene& scene);

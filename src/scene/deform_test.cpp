@@ -11,6 +11,7 @@ namespace lucerna::scene {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr float kPi = glm::pi<float>();
@@ -220,6 +221,31 @@ TEST(Deform, FlatMeshesGetTheNormalsOfTheirBentTriangles) {
   scene.nodes[0].weights = {1.f};
   updateTransforms(scene);
   for (const vec3& n : scene.meshes[scene.objects[0].mesh].normals) expectNear(n, {0, -1, 0});
+}
+
+// Finite weights times finite deltas, and inverses of finite transforms, may not be finite.
+TEST(Deform, WhatWouldLeaveAllReachStaysAsItRests) {
+  Scene scene = morphedStrip();
+  scene.meshes[0].targets[0].positions[2] = {0, 4, 0};
+  scene.meshes[0].targets[0].positions[3] = {0, -1e-9f, 0};  // beyond, but finite
+  scene.meshes[0].targets[0].texCoords[0][1] = {4, 0};
+  scene.meshes[0].targets[1].colors[1] = {4, -4, 0, 0};
+  scene.nodes[0].weights = {1e38f, 1e38f};
+  complete(scene);
+  const Mesh& mesh = scene.meshes[scene.objects[0].mesh];
+  EXPECT_EQ(mesh.positions, strip().positions);
+  EXPECT_EQ(mesh.texCoords[0][1], vec2(1, 1));
+  EXPECT_EQ(mesh.colors[1], u8vec4(51, 0, 0, 255));
+  EXPECT_EQ(scene.objects[0].boundsW.max, vec3(1, 2, 0));
+  EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("4 of its 4 vertices stay")));
+  scene.nodes[0].weights = {1e38f, 0.f};
+  updateTransforms(scene);
+  EXPECT_EQ(scene.warnings.size(), 1u);  // once told is enough
+
+  Scene skinned = skinnedStrip();
+  skinned.nodes[2].scale = vec3(1e-20f);  // its inverse overflows
+  complete(skinned);
+  EXPECT_EQ(skinned.meshes[skinned.objects[0].mesh].positions, strip().positions);
 }
 
 // Objects with one mesh: equal skins and weights share the bent mesh, others have their own, and

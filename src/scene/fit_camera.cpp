@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "core/parallel.hpp"
+#include "scene/extent.hpp"
 
 namespace lucerna::scene {
 namespace {
@@ -15,22 +16,20 @@ constexpr float kWidestFrame = 4.f / 3.f;  // width / height that the box is fit
 constexpr float kMargin = 1.05f;           // of distance
 constexpr float kLowestRoom = 1.5f;        // m
 constexpr float kNarrowestRoom = 0.01f;    // of the box's diagonal, from the middle to a wall
-constexpr float kFarthest = 1e15f;         // m from the origin; squares of lengths stay finite
+constexpr float kSameWall = 1e-4f;         // of distance: sheets closer than that are one
 constexpr int kDirections = 16;            // around the horizon
 
+// What a ray meets first, whatever the order in which it is told of surfaces.
 struct Sight {
-  float distance = std::numeric_limits<float>::infinity();  // m to the first surface
-  bool front = false;                                       // it faces the eye
+  float front = std::numeric_limits<float>::infinity();  // m to the nearest that faces the eye
+  float back = std::numeric_limits<float>::infinity();   // and to the nearest that does not
 
-  // Sheets modelled as two faces back to back count as walls.
-  void meet(float d, bool facesEye) {
-    const float tolerance = 1e-4f * d;
-    if (d < distance - tolerance) {
-      distance = d;
-      front = facesEye;
-    } else if (d < distance + tolerance) {
-      front = front || facesEye;
-    }
+  float distance() const { return std::min(front, back); }
+  // A sheet modelled as two faces back to back is a wall.
+  bool endsAtFront() const { return std::isfinite(front) && front <= (1.f + kSameWall) * back; }
+  void merge(const Sight& other) {
+    front = std::min(front, other.front);
+    back = std::min(back, other.back);
   }
 };
 using Horizon = std::array<Sight, kDirections>;
@@ -60,7 +59,8 @@ void look(Horizon& horizon, vec3 eye, const std::array<vec3, 3>& corners) {
     const float v = glm::dot(ray, q) / det;
     const float distance = distanceTimesDet / det;
     if (u < 0.f || v < 0.f || u + v > 1.f || distance <= 0.f) continue;
-    horizon[i].meet(distance, det > 0.f);
+    float& nearest = det > 0.f ? horizon[i].front : horizon[i].back;
+    nearest = std::min(nearest, distance);
   }
 }
 
@@ -80,9 +80,7 @@ Horizon lookAround(const Scene& scene, vec3 eye) {
         look(own, eye, corners);
       }
       const std::lock_guard lock(mutex);
-      for (int i = 0; i < kDirections; ++i) {
-        if (std::isfinite(own[i].distance)) horizon[i].meet(own[i].distance, own[i].front);
-      }
+      for (int i = 0; i < kDirections; ++i) horizon[i].merge(own[i]);
     });
   }
   return horizon;
@@ -120,21 +118,19 @@ void addCameraOutside(Scene& scene, const Aabb& box, vec3 toEye) {
   addCamera(scene, box.center() + toEye * distance, box.center(), kMargin * frame);
 }
 
-bool withinReach(const Aabb& box) {
-  const vec3 farthest = glm::max(glm::abs(box.min), glm::abs(box.max));
-  return farthest.x <= kFarthest && farthest.y <= kFarthest && farthest.z <= kFarthest;
-}
-
 }  // namespace
 
 void addFittingCamera(Scene& scene) {
   const Aabb box = scene.boundsW();
-  if (!box.empty() && !withinReach(box))
+  const auto lost = std::count_if(scene.objects.begin(), scene.objects.end(), [](const Object& o) {
+    return !o.boundsW.empty() && !withinReach(o.boundsW);
+  });
+  if (lost > 0)
     scene.warnings.push_back(
-        "parts of the scene lie so far away that no camera can show it whole; the default camera "
-        "looks at the origin");
-  if (box.empty() || !withinReach(box))
-    return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
+        fmt::format("{} of {} objects lie so far away that no camera can show them with the rest; "
+                    "the default camera leaves them out",
+                    lost, scene.objects.size()));
+  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
 
   // A room: from its middle most sight lines end at the front of a wall; from the middle of a solid
   // thing they end at back faces. A car has an inside too, but none to stand in; nor is a
@@ -143,7 +139,7 @@ void addFittingCamera(Scene& scene) {
   eye.y = box.min.y + 0.3f * box.extent().y;
   const Horizon horizon = lookAround(scene, eye);
   const auto walls = std::count_if(horizon.begin(), horizon.end(), [&](const Sight& sight) {
-    return sight.front && sight.distance > kNarrowestRoom * box.diagonal();
+    return sight.endsAtFront() && sight.distance() > kNarrowestRoom * box.diagonal();
   });
   if (walls < kDirections * 3 / 4 || box.extent().y < kLowestRoom)
     return addCameraOutside(scene, box, glm::normalize(vec3(0.5f, 0.45f, 1.f)));
@@ -152,14 +148,14 @@ void addFittingCamera(Scene& scene) {
   int best = 0;
   float longest = 0.f;
   for (int i = 0; i < kDirections / 2; ++i) {
-    const float behind = horizon[i + kDirections / 2].distance;
-    const float length = std::min(horizon[i].distance + behind, box.diagonal());
+    const float behind = horizon[i + kDirections / 2].distance();
+    const float length = std::min(horizon[i].distance() + behind, box.diagonal());
     if (length > longest) {
       longest = length;
       best = i;
     }
   }
-  const float back = std::min(horizon[best].distance, box.diagonal());
+  const float back = std::min(horizon[best].distance(), box.diagonal());
   eye += direction(best) * (0.8f * back);
   addCamera(scene, eye, eye - direction(best), 1.f);
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/check.hpp"
+#include "scene/extent.hpp"
 
 namespace lucerna::scene {
 
@@ -19,7 +20,8 @@ mat4 Node::parentFromNode() const {
 
 Aabb Scene::boundsW() const {
   Aabb box;
-  for (const Object& object : objects) box.grow(object.boundsW);
+  for (const Object& object : objects)
+    if (withinReach(object.boundsW)) box.grow(object.boundsW);
   return box;
 }
 

@@ -146,7 +146,7 @@ struct Scene {
   // What was repaired or left out while loading, one sentence each.
   std::vector<std::string> warnings;
 
-  Aabb boundsW() const;
+  Aabb boundsW() const;               // of the objects that are within reach (scene/extent.hpp)
   std::size_t triangleCount() const;  // as drawn: meshes count once per object
 };
 

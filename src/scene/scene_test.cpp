@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
+#include "core/test_folder.hpp"
 #include "image/image_file.hpp"
 #include "scene/append.hpp"
 #include "scene/texture_store.hpp"
@@ -23,6 +26,23 @@ Mesh square() {
   mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
   mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
+// The inside of a room of 8 x 4 x 8 m around the origin.
+Mesh room() {
+  Mesh mesh;
+  for (int i = 0; i < 8; ++i)
+    mesh.positions.emplace_back((i & 1) ? 4 : -4, (i & 2) ? 2 : -2, (i & 4) ? 4 : -4);
+  mesh.indices = {0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7, 0, 2, 4, 2, 6, 4,
+                  1, 5, 3, 3, 5, 7, 0, 4, 1, 1, 4, 5, 2, 3, 6, 3, 7, 6};
+  return mesh;
+}
+
+// The other sides of its triangles.
+Mesh turned(Mesh mesh) {
+  for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+    std::swap(mesh.indices[i], mesh.indices[i + 1]);
   return mesh;
 }
 
@@ -195,16 +215,8 @@ TEST(Complete, TheCameraSeesTheWholeBox) {
 }
 
 TEST(Complete, InARoomTheCameraStandsInside) {
-  Mesh room;  // a box of 8 x 4 x 8 m whose faces turn inward
-  for (int i = 0; i < 8; ++i)
-    room.positions.emplace_back((i & 1) ? 8 : 0, (i & 2) ? 4 : 0, (i & 4) ? 8 : 0);
-  room.indices = {0, 1, 2, 1, 3, 2, 4, 6, 5, 5, 6, 7, 0, 2, 4, 2, 6, 4,
-                  1, 5, 3, 3, 5, 7, 0, 4, 1, 1, 4, 5, 2, 3, 6, 3, 7, 6};
-  Mesh solid = room;
-  for (std::size_t i = 0; i < solid.indices.size(); i += 3)
-    std::swap(solid.indices[i], solid.indices[i + 1]);
   for (const bool inside : {true, false}) {
-    Scene scene = sceneOf(inside ? room : solid);
+    Scene scene = sceneOf(inside ? room() : turned(room()));
     complete(scene);
     const vec3 eye(scene.nodes[scene.cameras[0].node].worldFromNode[3]);
     const Aabb box = scene.boundsW();
@@ -230,9 +242,52 @@ TEST(Complete, AGapBetweenThingsInAFieldIsNoRoom) {
   EXPECT_GT(eye.y, 2.f);
 }
 
+// Walls of three sheets: where the camera stands may not depend on which is met first, as it would
+// on the threads.
+TEST(Complete, TheCameraDoesNotDependOnTheOrderOfTheSurfaces) {
+  struct Sheet {
+    float size;
+    bool inward;
+  };
+  const auto cameraIn = [](const std::vector<Sheet>& sheets) {
+    Scene scene;
+    for (const auto& [size, inward] : sheets) {
+      const auto mesh = static_cast<std::uint32_t>(scene.meshes.size());
+      scene.meshes.push_back(inward ? room() : turned(room()));
+      const std::uint32_t node =
+          addNode(scene, "wall", glm::scale(mat4(1.f), vec3(size, 1.f, size)));
+      scene.objects.push_back({.node = node, .mesh = mesh, .material = kNone, .boundsW = {}});
+    }
+    complete(scene);
+    return scene.nodes[scene.cameras[0].node].worldFromNode;
+  };
+  const Sheet inner{1.f, false}, middle{1.00008f, true}, outer{1.00015f, false};
+  const mat4 camera = cameraIn({inner, middle, outer});
+  EXPECT_LT(glm::length(vec3(camera[3])), 8.f);  // inside
+  EXPECT_EQ(cameraIn({outer, middle, inner}), camera);
+  EXPECT_EQ(cameraIn({middle, outer, inner}), camera);
+}
+
+TEST(Complete, WhatLiesBeyondReachDoesNotCountForTheView) {
+  Scene scene;
+  scene.meshes.push_back(room());
+  for (const float far : {0.f, 1e37f, 1e20f}) {
+    Node node;
+    node.translation.x = far;
+    node.scale = vec3(far == 1e37f ? 1e38f : 1.f);
+    scene.objects.push_back(
+        {.node = addNode(scene, node), .mesh = 0, .material = kNone, .boundsW = {}});
+  }
+  complete(scene);
+  EXPECT_THAT(scene.warnings,
+              testing::ElementsAre(testing::HasSubstr("2 of 3 objects lie so far")));
+  const View view = viewOf(scene, scene.cameras[0], 1.f);
+  EXPECT_LT(view.near, 1.f);
+  EXPECT_LT(view.far, 100.f);
+}
+
 TEST(TextureStore, RefusesWhatIsTooMuchTogether) {
-  const auto folder = std::filesystem::temp_directory_path() / "lucerna_texture_store";
-  std::filesystem::create_directories(folder);
+  const TestFolder folder;
   TextureStore store;
   int side = 0;
   for (const char* name : {"a.png", "b.png", "c.png"}) {  // 1, 4 and 9 pixels
@@ -252,7 +307,6 @@ TEST(TextureStore, RefusesWhatIsTooMuchTogether) {
                             testing::HasSubstr("d.hdr is replaced"),
                             testing::HasSubstr("takes 48 B, and with it the textures take more "
                                                "than 57 B together"))));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Append, TheFirstPartGivesBackgroundAndExposure) {
