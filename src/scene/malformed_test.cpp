@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "core/test_folder.hpp"
 #include "image/image_file.hpp"
 #include "scene/load.hpp"
 
@@ -52,11 +53,8 @@ Outcome readFileOf(const fs::path& path) {
   return outcome;
 }
 
-// A copy of the file in a folder of its own, with what it lacks beside it.
-fs::path withSupplies(const fs::path& file, const json& supplies) {
-  const fs::path folder = fs::path(testing::TempDir()) / "lucerna_malformed";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+// A copy of the file in the folder, with what it lacks beside it.
+fs::path withSupplies(const fs::path& folder, const fs::path& file, const json& supplies) {
   fs::copy_file(file, folder / file.filename());
   for (const json& supply : supplies) {
     std::ofstream(folder / supply.at("name").get<std::string>(), std::ios::binary) << std::string(
@@ -70,8 +68,9 @@ class Malformed : public testing::TestWithParam<std::size_t> {};
 TEST_P(Malformed, DoesWhatTheManifestSays) {
   if (!fs::exists(kFolder)) GTEST_SKIP() << "no ../shared/scenes beside this checkout";
   const json& entry = manifest().at(GetParam());
+  const TestFolder folder;
   fs::path file = kFolder / entry.at("file").get<std::string>();
-  if (entry.contains("supply")) file = withSupplies(file, entry.at("supply"));
+  if (entry.contains("supply")) file = withSupplies(folder.path(), file, entry.at("supply"));
   SCOPED_TRACE(entry.dump());
 
   const auto start = std::chrono::steady_clock::now();

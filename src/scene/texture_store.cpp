@@ -1,5 +1,6 @@
 #include "scene/texture_store.hpp"
 
+#include "core/file.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "image/image_file.hpp"
@@ -18,8 +19,8 @@ std::size_t TextureStore::addFile(const std::filesystem::path& path) {
   return it->second;
 }
 
-std::size_t TextureStore::addBytes(std::string name, Bytes encoded) {
-  requests_.push_back({std::move(name), {}, std::move(encoded), {}});
+std::size_t TextureStore::addBytes(std::string name, std::span<const std::byte> encoded) {
+  requests_.push_back({std::move(name), {}, encoded, {}});
   return requests_.size() - 1;
 }
 
@@ -40,7 +41,8 @@ void TextureStore::refuseBeyond(std::uint64_t maxBytes) {
         auto file = readFile(request.path);
         if (file) content = std::move(file).value();
       }
-      const auto info = imageInfo(request.path.empty() ? request.bytes : content, request.name);
+      const auto info = imageInfo(
+          request.path.empty() ? request.bytes : std::span<const std::byte>(content), request.name);
       if (info && std::max(info->width, info->height) <= kTextureLimits.maxSide &&
           info->bytes() <= kTextureLimits.maxBytes)
         sizes[i] = info->bytes();
@@ -65,12 +67,11 @@ std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::st
   std::vector<std::string> reasons(requests_.size());
   parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      Request& request = requests_[i];
+      const Request& request = requests_[i];
       reasons[i] = request.missing;
       if (!reasons[i].empty()) continue;
       auto image = request.path.empty() ? decodeImage(request.bytes, request.name, kTextureLimits)
                                         : readImage(request.path, kTextureLimits);
-      request.bytes = {};
       if (image)
         images[i] = std::make_shared<const Image>(std::move(image).value());
       else

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "core/file.hpp"
 #include "image/image.hpp"
 
 namespace lucerna::scene {
@@ -17,7 +17,8 @@ class TextureStore {
  public:
   // Each returns a ticket: an index into what load() returns. The same file gives the same ticket.
   std::size_t addFile(const std::filesystem::path& path);
-  std::size_t addBytes(std::string name, Bytes encoded);         // the content of an image file
+  // The content of an image file, which must live until load().
+  std::size_t addBytes(std::string name, std::span<const std::byte> encoded);
   std::size_t addMissing(std::string name, std::string reason);  // gives the stand-in
 
   // One image a ticket, never null. An image that cannot be read gives one sentence in `warnings`
@@ -32,7 +33,7 @@ class TextureStore {
   struct Request {
     std::string name;
     std::filesystem::path path;  // empty: bytes
-    Bytes bytes;
+    std::span<const std::byte> bytes;
     std::string missing;  // why there is nothing to read; empty: read it
   };
   std::vector<Request> requests_;

@@ -125,9 +125,9 @@ Accessor readAccessor(Document& document, const Place& place) {
   accessor.normalized = place.boolean("normalized", false);
   if (accessor.normalized &&
       (accessor.type == ComponentType::F32 || accessor.type == ComponentType::U32)) {
-    document.warn(place.pointer() +
-                  " is normalized, which only 8- and 16-bit integers can be: "
-                  "read as not normalized");
+    document.warn(place,
+                  "is normalized, which only 8- and 16-bit integers can be: read as not "
+                  "normalized");
     accessor.normalized = false;
   }
   accessor.stride = elementBytes(accessor);

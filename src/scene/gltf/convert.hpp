@@ -61,10 +61,10 @@ std::vector<float> readMorphWeights(const Place& owner, std::size_t targets);
 void readMaterials(Context& context);
 // Scene::nodes (of the file's default scene, parents first), objects, cameras and lights.
 void readNodes(Context& context);
-// An object for each part of a glTF mesh, with its weights stated by `morphNode` of the scene.
-// Returns the first one's index.
-std::size_t addObjects(Context& context, std::uint32_t gltfMesh, std::uint32_t node,
-                       std::uint32_t morphNode);
+// An object for each part of a glTF mesh, which `place` asks for, with its weights stated by
+// `morphNode` of the scene. Returns the first one's index.
+std::size_t addObjects(Context& context, const Place& place, std::uint32_t gltfMesh,
+                       std::uint32_t node, std::uint32_t morphNode);
 // Scene::skins, and the objects of Context::skinnedNodes.
 void readSkins(Context& context);
 // Scene::animations: transforms and morph weights of nodes.

@@ -8,8 +8,9 @@ namespace lucerna::scene::gltf {
 
 namespace {
 
-constexpr int kMaxDepth = 64;                       // of nested arrays and objects
-constexpr std::size_t kMaxTokens = 10'000'000;      // brackets, commas and colons of the JSON
+constexpr int kMaxDepth = 64;                   // of nested arrays and objects
+constexpr std::size_t kMaxTokens = 10'000'000;  // brackets, commas and colons of the JSON
+constexpr std::size_t kMostWarnings = 100;
 constexpr std::uint64_t kMaxText = 512ull << 20;    // bytes of JSON
 constexpr std::uint32_t kJsonChunk = 0x4E4F534A;    // "JSON"
 constexpr std::uint32_t kBinaryChunk = 0x004E4942;  // "BIN\0"
@@ -165,10 +166,9 @@ void checkExtensions(Document& document) {
   const auto read = [](const std::string& name) {
     return std::find(kReadExtensions.begin(), kReadExtensions.end(), name) != kReadExtensions.end();
   };
-  std::set<std::string> required;
   for (const Place& place : document.root().elements("extensionsRequired")) {
     const std::string& name = place.text();
-    required.insert(name);
+    document.required.insert(name);
     if (!read(name)) {
       fail(place.pointer(), "\"" + name + "\"", "an extension that Lucerna reads",
            adviceAbout(name));
@@ -182,8 +182,14 @@ void checkExtensions(Document& document) {
 
 }  // namespace
 
-void Document::warn(std::string sentence) {
-  if (said_.insert(sentence).second) warnings.push_back(std::move(sentence));
+void Document::warn(const Place* place, std::string what) {
+  if (said_.size() > kMostWarnings) return;
+  if (!said_.emplace(place ? place->id() : nullptr, what).second) return;
+  if (said_.size() > kMostWarnings)
+    warnings.push_back(
+        fmt::format("more than {} warnings: the others are left out", kMostWarnings));
+  else
+    warnings.push_back(place ? place->pointer() + " " + what : std::move(what));
 }
 
 void Document::spend(std::uint64_t bytes, const Place& place) {

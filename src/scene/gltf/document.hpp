@@ -29,18 +29,24 @@ struct Document {
   bool hasBinary = false;
   std::deque<Bytes> resources;  // what buffers with a uri hold
   std::vector<BufferView> views;
-  std::uint64_t bufferBytes = 0;  // of all buffers; a file that several name counts once
+  std::uint64_t bufferBytes = 0;   // of all buffers; a file that several name counts once
+  std::set<std::string> required;  // extensions that the file says it cannot do without
   std::vector<std::string> warnings;
 
   Place root() const { return {json, json}; }
   std::filesystem::path folder() const { return path.parent_path(); }
-  void warn(std::string sentence);  // the same sentence counts once
+  // The same sentence counts once, and after the first hundred none is kept: to find the pointer of
+  // a place is a search through the document.
+  void warn(std::string sentence) { warn(nullptr, std::move(sentence)); }
+  void warn(const Place& place, std::string what) { warn(&place, std::move(what)); }
   // Notes that `bytes` more are made from the buffers. A file whose parts are used so often, or
   // whose zeros are so many, that they grow beyond all proportion is refused.
   void spend(std::uint64_t bytes, const Place& place);
 
  private:
-  std::set<std::string> said_;
+  void warn(const Place* place, std::string what);
+
+  std::set<std::pair<const void*, std::string>> said_;  // of which place, what
   std::uint64_t spent_ = 0;
 };
 

@@ -26,9 +26,14 @@ inline std::uint64_t bytesOf(const DracoAttribute& attribute) {
 
 // What is wanted of a piece of packed data, and how much may come of it.
 struct DracoRequest {
-  std::span<const std::byte> packed;
+  std::uint32_t packed = 0;  // in DracoJob::packed
   std::vector<DracoAttribute> attributes;
-  std::uint64_t vertices = 0, indices = 0;
+  std::uint64_t vertices = 0, leastIndices = 0, mostIndices = 0;
+};
+
+struct DracoJob {
+  std::vector<std::span<const std::byte>> packed;  // each once, however many ask for it
+  std::vector<DracoRequest> requests;
 };
 
 struct DracoMesh {
@@ -37,8 +42,14 @@ struct DracoMesh {
   std::vector<Bytes> attributes;       // in the order of the request: all vertices, packed
 };
 
-// One mesh a request. Meshes have exactly the vertices and indices that were stated, else a fault.
-// The error is one phrase: what became of the child.
-Result<std::vector<DracoMesh>> decodeDraco(std::span<const DracoRequest> requests);
+// One mesh a request. Meshes have the vertices and indices that were stated, else a fault. The
+// error tells what became of the child: "the decoder of its Draco data ...".
+Result<std::vector<DracoMesh>> decodeDraco(const DracoJob& job);
+
+// What the child answers, and how that is read: whatever it wrote, each mesh has a fault or what
+// its request says, but for indices, which may be of any size.
+Bytes writeDracoAnswer(std::span<const DracoMesh> meshes);
+Result<std::vector<DracoMesh>> readDracoAnswer(std::span<const DracoRequest> requests,
+                                               std::span<const std::byte> answer);
 
 }  // namespace lucerna::scene::gltf

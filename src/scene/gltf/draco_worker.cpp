@@ -2,6 +2,7 @@
 
 #include <draco/compression/decode.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "core/byte_stream.hpp"
@@ -51,17 +52,20 @@ DracoMesh failed(std::string fault) {
   return mesh;
 }
 
-DracoMesh decode(const DracoRequest& request) {
+DracoMesh decode(const DracoRequest& request, std::span<const std::byte> packed) {
   draco::DecoderBuffer buffer;
-  buffer.Init(reinterpret_cast<const char*>(request.packed.data()), request.packed.size());
+  buffer.Init(reinterpret_cast<const char*>(packed.data()), packed.size());
   draco::Decoder decoder;
   auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
   if (!decoded.ok()) return failed(decoded.status().error_msg_string());
   const draco::Mesh& source = *decoded.value();
   const std::uint64_t vertices = source.num_points(), indices = 3ull * source.num_faces();
-  if (vertices != request.vertices || indices != request.indices)
-    return failed(fmt::format("{} vertices and {} indices, not {} and {} as its accessors state",
-                              vertices, indices, request.vertices, request.indices));
+  const std::uint64_t least = request.leastIndices, most = request.mostIndices;
+  if (vertices != request.vertices || indices < least || indices > most)
+    return failed(fmt::format(
+        "{} vertices and {} indices, not {} and {} as its accessors state", vertices, indices,
+        request.vertices,
+        least == most ? fmt::format("{}", most) : fmt::format("{} to {}", least, most)));
   DracoMesh mesh;
   mesh.indices.reserve(indices);
   for (draco::FaceIndex face(0); face < source.num_faces(); ++face)
@@ -90,39 +94,32 @@ Bytes readInput() {
 int dracoWorker() {
   const Bytes input = readInput();
   ByteReader reader(input);
-  std::uint64_t count = 0;
-  reader(count);
-  std::vector<DracoRequest> requests;
   std::vector<Bytes> packed;
-  for (std::uint64_t i = 0; i < count && reader.good(); ++i) {
-    DracoRequest& request = requests.emplace_back();
-    reader(request.vertices), reader(request.indices);
-    reader.list(request.attributes, [](auto& r, DracoAttribute& a) {
+  std::vector<DracoRequest> requests;
+  reader.list(packed, [](auto& r, Bytes& bytes) { r(bytes); });
+  reader.list(requests, [](auto& r, DracoRequest& request) {
+    r(request.packed), r(request.vertices), r(request.leastIndices), r(request.mostIndices);
+    r.list(request.attributes, [](auto& list, DracoAttribute& a) {
       std::uint32_t type = 0;
-      r(a.id), r(type), r(a.components);
+      list(a.id), list(type), list(a.components);
       a.type = static_cast<ComponentType>(type);
     });
-    reader(packed.emplace_back());
-  }
-  if (!reader.good() || !reader.atEnd()) {
+  });
+  const bool sound = std::all_of(requests.begin(), requests.end(), [&](const auto& request) {
+    return request.packed < packed.size();
+  });
+  if (!reader.good() || !reader.atEnd() || !sound) {
     std::fputs("draco is for Lucerna itself: it wants requests on stdin\n", stderr);
     return static_cast<int>(ErrorKind::Usage);
   }
   std::vector<DracoMesh> meshes(requests.size());
   parallelFor(requests.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      requests[i].packed = packed[i];
-      meshes[i] = decode(requests[i]);
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      meshes[i] = decode(requests[i], packed[requests[i].packed]);
   });
-  ByteWriter writer;
-  for (const DracoMesh& mesh : meshes) {
-    writer(mesh.fault), writer(mesh.indices);
-    writer.list(mesh.attributes, [](auto& w, const Bytes& bytes) { w(bytes); });
-  }
-  const bool written =
-      std::fwrite(writer.bytes.data(), 1, writer.bytes.size(), stdout) == writer.bytes.size() &&
-      std::fflush(stdout) == 0;
+  const Bytes answer = writeDracoAnswer(meshes);
+  const bool written = std::fwrite(answer.data(), 1, answer.size(), stdout) == answer.size() &&
+                       std::fflush(stdout) == 0;
   return written ? 0 : static_cast<int>(ErrorKind::Failed);
 }
 

@@ -42,8 +42,8 @@ std::vector<float> readTimes(Context& context, const Accessor& accessor) {
     last = times[i];
     if (times[i] <= times[i - 1]) {  // a jump: two keys at one time
       times[i] = std::nextafter(times[i - 1], std::numeric_limits<float>::infinity());
-      context.document.warn(accessor.place.pointer() +
-                            " has keys at the same time: moved apart by the least possible");
+      context.document.warn(accessor.place,
+                            "has keys at the same time: moved apart by the least possible");
     }
   }
   return times;
@@ -90,9 +90,11 @@ std::optional<AnimationPath> pathNamed(const std::string& name) {
 
 void readAnimations(Context& context) {
   const auto nodes = context.document.root().elements("nodes");
-  for (const Place& place : context.document.root().elements("animations")) {
+  const auto animations = context.document.root().elements("animations");
+  for (std::size_t i = 0; i < animations.size(); ++i) {
+    const Place place = animations[i];
     Animation animation;
-    animation.name = place.text("name", place.pointer().substr(1));
+    animation.name = place.name(fmt::format("animations/{}", i));
     const auto samplers = place.at("samplers").elements();
     for (const Place& channelPlace : place.at("channels").elements()) {
       const Place target = channelPlace.at("target");
@@ -110,8 +112,8 @@ void readAnimations(Context& context) {
       const std::size_t targets = mesh == kNone ? 0 : context.meshes[mesh].targets;
       if (path == AnimationPath::Weights && targets == 0) {
         context.document.warn(
-            fmt::format("{} moves the weights of node {}, which has no morph targets",
-                        channelPlace.pointer(), node));
+            channelPlace,
+            fmt::format("moves the weights of node {}, which has no morph targets", node));
         continue;
       }
       AnimationChannel channel;

@@ -3,18 +3,17 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "core/test_folder.hpp"
 #include "scene/check_scene.hpp"
 #include "scene/gltf/gltf_reader.hpp"
 
 namespace lucerna::scene {
 namespace {
 
-namespace fs = std::filesystem;
 using nlohmann::json;
 
 // One triangle (positions 0 to 35, indices 36 to 41, two key times 44 to 51, three times two
@@ -156,14 +155,9 @@ void damage(json& document, Random& random) {
 
 class GltfDamage : public testing::Test {
  protected:
-  GltfDamage() : folder_(fs::path(testing::TempDir()) / "lucerna_gltf_damage") {
-    fs::create_directories(folder_);
-  }
-  ~GltfDamage() override { fs::remove_all(folder_); }
-
   // True if it was drawn.
   bool check(const std::string& file) {
-    const fs::path path = folder_ / "damaged.glb";
+    const std::filesystem::path path = folder_ / "damaged.glb";
     std::ofstream(path, std::ios::binary) << file;
     auto scene = readGltf(path);
     if (!scene) {
@@ -179,7 +173,7 @@ class GltfDamage : public testing::Test {
     return true;
   }
 
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 TEST_F(GltfDamage, TheUndamagedFileIsDrawn) {

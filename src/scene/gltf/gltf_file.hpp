@@ -4,10 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/test_folder.hpp"
 #include "scene/gltf/gltf_reader.hpp"
 
 namespace lucerna::scene {
@@ -15,16 +15,11 @@ namespace lucerna::scene {
 class GltfFile : public testing::Test {
  protected:
   GltfFile() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::temp_directory_path() /
-              (std::string("lucerna_gltf_") + info->test_suite_name() + info->name());
-    std::filesystem::create_directories(folder_);
     root_["asset"]["version"] = "2.0";
     root_["scene"] = 0;
     root_["scenes"][0]["nodes"] = {0};
     root_["nodes"][0]["mesh"] = 0;
   }
-  ~GltfFile() override { std::filesystem::remove_all(folder_); }
 
   // Appends a buffer view over new data and returns its index.
   template <typename T>
@@ -90,7 +85,7 @@ class GltfFile : public testing::Test {
 
   nlohmann::json root_;
   std::string buffer_;
-  std::filesystem::path folder_;
+  TestFolder folder_;
 };
 
 }  // namespace lucerna::scene

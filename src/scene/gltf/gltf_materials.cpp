@@ -27,6 +27,8 @@ class MaterialReader {
   TextureSlot slot(const Place& owner, const char* key);
   std::uint32_t texture(std::uint32_t index);
   std::size_t image(std::uint32_t index);
+  std::size_t newImage(const Place& place, std::uint32_t index);
+  static std::string nameOf(const Place& image);
   void readSampler(const Place& sampler, Texture& texture);
   void readMetallicRoughness(const Place& pbr, Material& material);
   void readSpecularGlossiness(const Place& glossy, Material& material);
@@ -37,6 +39,7 @@ class MaterialReader {
   TextureStore store_;
   std::map<std::uint32_t, std::uint32_t> known_;      // glTF texture: Scene::textures
   std::map<std::uint32_t, std::size_t> knownImages_;  // glTF image: ticket
+  std::map<std::uint32_t, std::size_t> knownViews_;   // bufferView of an image: ticket
   std::vector<std::size_t> tickets_;                  // of Scene::textures
 };
 
@@ -63,27 +66,35 @@ void MaterialReader::readSampler(const Place& sampler, Texture& texture) {
   texture.nearest = filter == 9728;
 }
 
+// Many images may name one view, many textures one image: each is decoded once.
 std::size_t MaterialReader::image(std::uint32_t index) {
-  if (const auto it = knownImages_.find(index); it != knownImages_.end()) return it->second;
-  const Place place = images_[index];
-  const std::string name = place.text("name", fmt::format("image {}", index));
-  std::size_t ticket = 0;
+  const auto [known, isNew] = knownImages_.emplace(index, 0);
+  if (isNew) known->second = newImage(images_[index], index);
+  return known->second;
+}
+
+std::size_t MaterialReader::newImage(const Place& place, std::uint32_t index) {
+  const std::string name = place.name(fmt::format("image {}", index));
   if (const auto uri = place.find("uri")) {
-    if (auto inlined = decodeDataUri(uri->text(), *uri)) {
-      ticket = store_.addBytes(name, std::move(*inlined));
-    } else {
-      ticket = store_.addFile(resolveUri(document_, *uri));
-    }
-  } else {
-    const auto view = place.at("bufferView").index(document_.views.size(), "bufferViews");
-    const auto bytes = document_.views[view].bytes;
-    ticket = bytes.empty() ? store_.addMissing(name,
-                                               "its buffer has no data in the file; export "
-                                               "the file again")
-                           : store_.addBytes(name, Bytes(bytes.begin(), bytes.end()));
+    auto inlined = decodeDataUri(uri->text(), *uri);
+    if (!inlined) return store_.addFile(resolveUri(document_, *uri));
+    document_.resources.push_back(std::move(*inlined));
+    return store_.addBytes(name, document_.resources.back());
   }
-  knownImages_.emplace(index, ticket);
-  return ticket;
+  const auto view = place.at("bufferView").index(document_.views.size(), "bufferViews");
+  const auto bytes = document_.views[view].bytes;
+  if (bytes.empty())
+    return store_.addMissing(name, "its buffer has no data in the file; export the file again");
+  const auto [known, isNew] = knownViews_.emplace(view, 0);
+  if (isNew) known->second = store_.addBytes(name, bytes);
+  return known->second;
+}
+
+// What the image is called: its name or its file.
+std::string MaterialReader::nameOf(const Place& image) {
+  const auto uri = image.find("uri");
+  const bool isFile = uri && !uri->text().starts_with("data:");
+  return image.name(isFile ? uri->text() : std::string());
 }
 
 std::uint32_t MaterialReader::texture(std::uint32_t index) {
@@ -93,8 +104,7 @@ std::uint32_t MaterialReader::texture(std::uint32_t index) {
   const auto source = place.index("source", images_.size(), "images");
   if (source != kNone) {
     tickets_.push_back(image(source));
-    texture.name = images_[source].text("name", images_[source].text("uri"));
-    if (texture.name.starts_with("data:")) texture.name.clear();
+    texture.name = nameOf(images_[source]);
   } else {
     std::string why = "it names no image";
     if (place.has("extensions")) {
@@ -105,7 +115,7 @@ std::uint32_t MaterialReader::texture(std::uint32_t index) {
     tickets_.push_back(store_.addMissing(fmt::format("/textures/{}", index),
                                          why + "; export the file again with PNG or JPEG images"));
   }
-  texture.name = place.text("name", texture.name);
+  texture.name = place.name(texture.name);
   const auto sampler = place.index("sampler", samplers_.size(), "samplers");
   if (sampler != kNone) readSampler(samplers_[sampler], texture);
   const auto made = static_cast<std::uint32_t>(context_.scene.textures.size());
@@ -127,8 +137,7 @@ TextureSlot MaterialReader::slot(const Place& owner, const char* key) {
     if (const auto scale = transform->find("scale")) scale->numbers({&slot.scale.x, 2});
   }
   if (set > 1) {
-    document_.warn(
-        fmt::format("{} uses TEXCOORD_{}: only 0 and 1 are read, 0 is used", info->pointer(), set));
+    document_.warn(*info, fmt::format("uses TEXCOORD_{}: only 0 and 1 are read, 0 is used", set));
     set = 0;
   }
   slot.texCoord = static_cast<int>(set);
@@ -154,7 +163,7 @@ void MaterialReader::readSpecularGlossiness(const Place& glossy, Material& mater
 
 Material MaterialReader::read(const Place& place, std::size_t number) {
   Material material;
-  material.name = place.text("name", fmt::format("material {}", number));
+  material.name = place.name(fmt::format("material {}", number));
   const auto pbr = place.find("pbrMetallicRoughness");
   const auto glossy = place.extension("KHR_materials_pbrSpecularGlossiness");
   const bool unlit = place.extension("KHR_materials_unlit").has_value();

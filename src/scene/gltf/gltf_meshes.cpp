@@ -59,7 +59,7 @@ void readMeshes(Context& context) {
   std::map<std::string, std::uint32_t> known;
   for (const Place& mesh : root.elements("meshes")) {
     MeshParts& made = context.meshes.emplace_back();
-    const std::string name = mesh.text("name", fmt::format("mesh {}", context.meshes.size() - 1));
+    const std::string name = mesh.name(fmt::format("mesh {}", context.meshes.size() - 1));
     const auto primitives = mesh.at("primitives").elements();
     readWeights(mesh, primitives, made);
     for (std::size_t i = 0; i < primitives.size(); ++i) {

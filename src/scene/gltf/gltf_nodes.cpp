@@ -44,7 +44,8 @@ class NodeReader {
       : context_(context),
         document_(context.document),
         nodes_(document_.root().elements("nodes")),
-        cameras_(document_.root().elements("cameras")) {
+        cameras_(document_.root().elements("cameras")),
+        skinCount_(document_.root().elements("skins").size()) {
     if (const auto lights = document_.root().extension("KHR_lights_punctual")) {
       lights_ = lights->elements("lights");
     }
@@ -64,6 +65,7 @@ class NodeReader {
   Context& context_;
   Document& document_;
   std::vector<Place> nodes_, cameras_, lights_;
+  std::size_t skinCount_;
   std::vector<std::vector<std::uint32_t>> children_;
   std::vector<std::uint32_t> parents_;
 };
@@ -121,8 +123,9 @@ std::vector<std::uint32_t> NodeReader::roots() const {
     const std::uint32_t node = place.index(nodes_.size(), "nodes");
     if (seen[node]) place.refuse(fmt::format("node {} a second time", node), "each node once");
     if (parents_[node] != kNone) {  // some exporters do that
-      document_.warn(fmt::format("{} names node {}, a child of node {}, as a root: drawn as one",
-                                 place.pointer(), node, parents_[node]));
+      document_.warn(place,
+                     fmt::format("names node {}, a child of node {}, as a root: drawn as one", node,
+                                 parents_[node]));
     }
     seen[node] = true;
     result.push_back(node);
@@ -142,7 +145,7 @@ void NodeReader::readTransform(const Place& place, Node& node) {
   const vec4 rotation = place.vector4("rotation", vec4(0.f, 0.f, 0.f, 1.f));
   const float length = glm::length(rotation);
   if (!(length > 1e-6f && length < kHuge)) {
-    document_.warn(place.pointer() + " has a rotation of length 0: not rotated");
+    document_.warn(place, "has a rotation of length 0: not rotated");
     return;
   }
   node.rotation = glm::normalize(quat(rotation.w, rotation.x, rotation.y, rotation.z));
@@ -151,17 +154,18 @@ void NodeReader::readTransform(const Place& place, Node& node) {
 void NodeReader::addMesh(const Place& place, std::uint32_t gltfMesh, std::uint32_t node) {
   const MeshParts& mesh = context_.meshes[gltfMesh];
   auto weights = readMorphWeights(place, mesh.targets);
-  context_.scene.nodes[node].weights = weights.empty() ? mesh.weights : std::move(weights);
-  const auto skin = place.index("skin", document_.root().elements("skins").size(), "skins");
+  if (weights.empty()) weights = mesh.weights;
+  document_.spend(weights.size() * sizeof(float), place);
+  context_.scene.nodes[node].weights = std::move(weights);
+  const auto skin = place.index("skin", skinCount_, "skins");
   const auto instancing = place.extension("EXT_mesh_gpu_instancing");
   if (skin != kNone) {
     context_.skinnedNodes.push_back({place, node, gltfMesh, skin});
-    if (instancing)
-      document_.warn(place.pointer() + " has a skin and instances: the instances are left out");
+    if (instancing) document_.warn(place, "has a skin and instances: the instances are left out");
   } else if (instancing) {
     addInstances(*instancing, gltfMesh, node);
   } else {
-    addObjects(context_, gltfMesh, node, node);
+    addObjects(context_, place, gltfMesh, node, node);
   }
 }
 
@@ -202,13 +206,14 @@ void NodeReader::addInstances(const Place& instancing, std::uint32_t gltfMesh, s
       const quat rotation(r[3], r[0], r[1], r[2]);
       if (glm::length(rotation) > 1e-6f) instance.rotation = glm::normalize(rotation);
     }
-    addObjects(context_, gltfMesh, addNode(context_.scene, std::move(instance)), node);
+    const std::uint32_t made = addNode(context_.scene, std::move(instance));
+    addObjects(context_, instancing, gltfMesh, made, node);
   }
 }
 
 void NodeReader::addCamera(const Place& place, std::uint32_t node) {
   Camera camera;
-  camera.name = place.text("name", context_.scene.nodes[node].name);
+  camera.name = place.name(context_.scene.nodes[node].name);
   camera.node = node;
   const std::string& type = place.at("type").text();
   if (type == "perspective") {
@@ -238,7 +243,7 @@ void NodeReader::addCamera(const Place& place, std::uint32_t node) {
 
 void NodeReader::addLight(const Place& place, std::uint32_t node) {
   Light light;
-  light.name = place.text("name", context_.scene.nodes[node].name);
+  light.name = place.name(context_.scene.nodes[node].name);
   light.node = node;
   light.color = place.vector3("color", vec3(1.f));
   light.intensity = place.number("intensity", 1.f, 0.f, kHuge);
@@ -263,7 +268,7 @@ void NodeReader::addLight(const Place& place, std::uint32_t node) {
 void NodeReader::visit(std::uint32_t index, std::uint32_t parent) {
   const Place place = nodes_[index];
   Node node;
-  node.name = place.text("name", fmt::format("node {}", index));
+  node.name = place.name(fmt::format("node {}", index));
   node.parent = parent;
   readTransform(place, node);
   const std::uint32_t made = addNode(context_.scene, std::move(node));
@@ -304,11 +309,13 @@ void NodeReader::read() {
 
 }  // namespace
 
-std::size_t addObjects(Context& context, std::uint32_t gltfMesh, std::uint32_t node,
-                       std::uint32_t morphNode) {
+std::size_t addObjects(Context& context, const Place& place, std::uint32_t gltfMesh,
+                       std::uint32_t node, std::uint32_t morphNode) {
   Scene& scene = context.scene;
   const std::size_t first = scene.objects.size();
-  for (const Part& part : context.meshes[gltfMesh].parts) {
+  const std::vector<Part>& parts = context.meshes[gltfMesh].parts;
+  context.document.spend(parts.size() * sizeof(Object), place);
+  for (const Part& part : parts) {
     if (part.material == kNone && context.defaultMaterial == kNone) {
       context.defaultMaterial = static_cast<std::uint32_t>(scene.materials.size());
       scene.materials.emplace_back().name = "default";

@@ -4,9 +4,13 @@
 #include <meshoptimizer.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
+#include <optional>
 #include <random>
 
+#include "core/progress.hpp"
+#include "scene/check_scene.hpp"
 #include "scene/gltf/gltf_file.hpp"
 
 namespace lucerna::scene {
@@ -17,6 +21,30 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+
+// Another worker while it lives: a program, or a shell script written for it.
+class Worker {
+ public:
+  explicit Worker(const std::filesystem::path& program) {
+    if (const char* before = std::getenv("LUCERNA_WORKER")) before_ = before;
+    setenv("LUCERNA_WORKER", program.c_str(), 1);
+  }
+  Worker(const std::filesystem::path& program, const std::string& script) : Worker(program) {
+    std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  }
+  ~Worker() {
+    if (before_)
+      setenv("LUCERNA_WORKER", before_->c_str(), 1);
+    else
+      unsetenv("LUCERNA_WORKER");
+  }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
 
 class Packed : public GltfFile {
  protected:
@@ -154,8 +182,8 @@ TEST_F(DracoFile, RefusesWhatDoesNotFitItsAccessors) {
   extension()["attributes"] = json::object();
   expectRefused({"found no attribute"});
   grid();
-  root_["meshes"][0]["primitives"][0]["mode"] = 5;
-  expectRefused({"/meshes/0/primitives/0/mode: found 5", "4 (triangles)"});
+  root_["meshes"][0]["primitives"][0]["mode"] = 6;
+  expectRefused({"/meshes/0/primitives/0/mode: found 6", "4 (triangles) or 5"});
   root_["meshes"][0]["primitives"][0].erase("mode");
   root_["meshes"][0]["primitives"][0].erase("indices");
   expectRefused({"found no \"indices\""});
@@ -179,27 +207,138 @@ TEST_F(DracoFile, DamagedDataIsRefusedOrDrawn) {
     SCOPED_TRACE(round);
     buffer_ = whole;
     for (int i = 0; i < 3; ++i) buffer_[random() % buffer_.size()] = static_cast<char>(random());
-    const auto scene = read();
+    auto scene = read();
     refused += !scene;
     if (!scene) {
       EXPECT_THAT(scene.error().message, HasSubstr("Draco data"));
+      continue;
     }
+    const Status sound = checkScene(*scene, 0);
+    EXPECT_TRUE(sound) << (sound ? "" : sound.error().message);
+    complete(*scene);
   }
   EXPECT_GT(refused, kRounds / 4);
 }
 
+// A file of a megabyte could ask for it a thousand times.
+TEST_F(DracoFile, RefusesToUnpackTheSameDataAgainAndAgain) {
+  const json primitive = grid();
+  const int big = view(std::vector<char>(1 << 20, 'x'));
+  for (int i = 0; i < 300; ++i) {
+    json& other = root_["meshes"][0]["primitives"].emplace_back(primitive);
+    other["attributes"]["POSITION"] = described(5126, "VEC3", 25);
+    other["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = big;
+  }
+  expectRefused({"found data that expands to"});
+}
+
+TEST_F(DracoFile, DataThatManyNameAreSentOnce) {
+  const json primitive = grid();
+  for (int i = 0; i < 3; ++i)
+    root_["meshes"][0]["primitives"].emplace_back(primitive)["attributes"]["POSITION"] =
+        described(5126, "VEC3", 25);
+  EXPECT_EQ(read()->triangleCount(), 128u);
+  const Worker counts(folder_ / "worker", "wc -c >&2; exit 3");  // which is a refusal in its words
+  const auto refused = read();
+  ASSERT_FALSE(refused);
+  const std::string& message = refused.error().message;
+  EXPECT_LT(std::stoul(message.substr(message.rfind(' '))), 2 * buffer_.size() + 1000) << message;
+}
+
+// What is unpacked is a list of triangles whatever the primitive's accessors would have been.
+TEST_F(DracoFile, AStripIsUnpackedAsAList) {
+  json& primitive = grid();
+  primitive["mode"] = 5;
+  root_["accessors"][primitive["indices"].get<int>()]["count"] = 43;  // of a strip, turns included
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->triangleCount(), 32u);
+  root_["accessors"][primitive["indices"].get<int>()]["count"] = 33;
+  expectRefused({"25 vertices and 96 indices, not 25 and 3 to 93"});
+}
+
+TEST_F(DracoFile, WhereItIsNotRequiredTheAccessorsStandIn) {
+  json& primitive = grid();
+  root_.erase("extensionsRequired");
+  const Worker none("/nowhere/lucerna_worker");
+  const auto refused = read();
+  ASSERT_FALSE(refused);  // there is nothing beside the packed data
+  EXPECT_EQ(refused.error().kind, ErrorKind::Failed);
+
+  std::vector<float> positions(75, 0.f);
+  positions[3] = positions[7] = 1.f;
+  primitive["attributes"] = {{"POSITION", floats(positions, "VEC3", 3)}};
+  std::vector<std::uint16_t> indices(96, 0);
+  indices[1] = 1, indices[2] = 2;
+  primitive["indices"] = accessor(indices, 5123, "SCALAR", 1);
+  extension()["attributes"] = {{"POSITION", 0}};
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->meshes[0].bounds.max, vec3(1, 1, 0));
+  EXPECT_THAT(scene->warnings, ElementsAre(testing::AllOf(HasSubstr("/nowhere/lucerna_worker"),
+                                                          HasSubstr("are drawn"))));
+}
+
+TEST_F(DracoFile, AFaultyPrimitiveThatIsNotRequiredIsDrawnByItsAccessors) {
+  json& primitive = grid();
+  root_.erase("extensionsRequired");
+  const json packed = primitive;
+  primitive["attributes"] = {{"POSITION", floats(std::vector<float>(72, 3.f), "VEC3", 3)}};
+  primitive["indices"] = accessor(std::vector<std::uint16_t>(96, 0), 5123, "SCALAR", 1);
+  extension()["attributes"] = {{"POSITION", 0}};
+  root_["meshes"][0]["primitives"].push_back(packed);
+  const auto scene = read();
+  ASSERT_TRUE(scene) << scene.error().message;
+  EXPECT_EQ(scene->meshes[0].bounds.max, vec3(3, 3, 3));
+  EXPECT_NEAR(scene->meshes[1].bounds.max.x, 1.f, 1e-3f);
+  EXPECT_THAT(scene->warnings,
+              ElementsAre(testing::AllOf(
+                  HasSubstr("/meshes/0/primitives/0/extensions/KHR_draco_mesh_compression has a"),
+                  HasSubstr("not 24 and 96"))));
+}
+
 TEST_F(DracoFile, ADecoderThatDoesNotAnswerIsASentence) {
   grid();
-  const char* before = std::getenv("LUCERNA_WORKER");
-  const std::string kept = before ? before : "";
-  setenv("LUCERNA_WORKER", "/bin/false", 1);
-  expectRefused({"/meshes: found Draco data, whose decoder", "wanted meshes that it can unpack"});
-  setenv("LUCERNA_WORKER", "/bin/true", 1);
-  expectRefused({"/meshes: found Draco data, whose decoder answered with something else"});
-  if (before)
-    setenv("LUCERNA_WORKER", kept.c_str(), 1);
-  else
-    unsetenv("LUCERNA_WORKER");
+  {
+    const Worker fails("/bin/false");
+    expectRefused({"/meshes: the decoder of its Draco data ended with code 1; export"});
+  }
+  {
+    const Worker saysNothing("/bin/true");
+    expectRefused({"/meshes: the decoder of its Draco data answered with something else"});
+  }
+  const Worker missing("/nowhere/lucerna_worker");
+  const auto scene = read();
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().kind, ErrorKind::Failed);  // the file is not to blame
+  EXPECT_THAT(scene.error().message, HasSubstr("build or install it again"));
+  EXPECT_THAT(scene.error().message, testing::Not(HasSubstr("export")));
+}
+
+TEST_F(DracoFile, NoProcessIsStartedWhereNothingOutsideCounts) {
+  grid();
+  root_["buffers"][0] = {{"byteLength", buffer_.size()},
+                         {"uri", "data:;base64," + std::string(buffer_.size() / 3 * 4 + 4, 'A')}};
+  const std::string text = root_.dump();
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  const auto scene = readGltf("a.gltf", Bytes(bytes, bytes + text.size()), OutsideFiles::Refuse);
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message, HasSubstr("none may be started here"));
+}
+
+TEST_F(DracoFile, CancellingIsNoFaultOfTheFile) {
+  grid();
+  const Worker waits(folder_ / "worker", "sleep 30");
+  // In a process of its own, since cancelling is for good.
+  EXPECT_EXIT(
+      {
+        Progress::catchInterrupt();
+        raise(SIGINT);
+        const auto scene = read();
+        std::fprintf(stderr, "%s", scene.error().message.c_str());
+        std::_Exit(static_cast<int>(scene.error().kind));
+      },
+      testing::ExitedWithCode(130), "the decoder of its Draco data was cancelled");
 }
 
 // meshoptimizer.

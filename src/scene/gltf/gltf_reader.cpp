@@ -28,7 +28,7 @@ Result<Scene> readGltf(const std::filesystem::path& path, Bytes content,
     document.spend(bytesOfBent(scene, scene.meshes), document.root());
     gltf::readAnimations(context);
   } catch (const gltf::Fault& fault) {
-    return error(ErrorKind::Input, "{}: {}", path.string(), fault.message);
+    return error(fault.kind, "{}: {}", path.string(), fault.message);
   }
   if (scene.objects.empty()) document.warn("the file has nothing to draw");
   scene.warnings.insert(scene.warnings.begin(), document.warnings.begin(), document.warnings.end());

@@ -1,6 +1,7 @@
 // Skins, and the objects that follow them.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scene/gltf/convert.hpp"
 
@@ -21,12 +22,13 @@ class SkinReader {
  private:
   std::uint32_t skinOf(std::uint32_t gltfSkin);
   std::vector<mat4> inverseBindMatrices(const Place& place, std::size_t joints);
-  void requireJoints(const Place& skin, const Mesh& mesh, std::size_t joints) const;
+  void requireJoints(const Place& skin, std::uint32_t mesh, std::size_t joints);
 
   Context& context_;
   Document& document_;
   std::vector<Place> places_;
-  std::vector<std::uint32_t> made_;  // by glTF skin: Scene::skins, or kNone
+  std::vector<std::uint32_t> made_;                 // by glTF skin: Scene::skins, or kNone
+  std::map<std::uint32_t, std::uint16_t> highest_;  // by mesh of the scene: the joint it follows
 };
 
 std::vector<mat4> SkinReader::inverseBindMatrices(const Place& place, std::size_t joints) {
@@ -53,14 +55,13 @@ std::uint32_t SkinReader::skinOf(std::uint32_t gltfSkin) {
   if (made_[gltfSkin] != kNone) return made_[gltfSkin];
   const Place place = places_[gltfSkin];
   Skin skin;
-  skin.name = place.text("name", fmt::format("skin {}", gltfSkin));
+  skin.name = place.name(fmt::format("skin {}", gltfSkin));
   const auto joints = place.at("joints").elements();
   if (joints.empty()) place.at("joints").refuse("no joints", "one at least");
   for (const Place& joint : joints) {
     const auto node = joint.index(context_.sceneNodes.size(), "nodes");
     if (context_.sceneNodes[node] == kNone) {
-      document_.warn(fmt::format(
-          "{} is a node outside the scene: what has this skin stands at rest", joint.pointer()));
+      document_.warn(joint, "is a node outside the scene: what has this skin stands at rest");
       return kNone;
     }
     skin.joints.push_back(context_.sceneNodes[node]);
@@ -71,13 +72,14 @@ std::uint32_t SkinReader::skinOf(std::uint32_t gltfSkin) {
   return made_[gltfSkin];
 }
 
-void SkinReader::requireJoints(const Place& skin, const Mesh& mesh, std::size_t joints) const {
-  const auto& used = mesh.influences.joints;
-  const auto highest = std::max_element(used.begin(), used.end());
-  if (highest != used.end() && *highest >= joints) {
-    skin.at("joints").refuse(
-        fmt::format("{} joints, but mesh \"{}\" follows joint {}", joints, mesh.name, *highest),
-        "a joint for every number in JOINTS_0");
+void SkinReader::requireJoints(const Place& skin, std::uint32_t mesh, std::size_t joints) {
+  const auto [known, isNew] = highest_.emplace(mesh, 0);
+  const auto& used = context_.scene.meshes[mesh].influences.joints;
+  if (isNew) known->second = *std::max_element(used.begin(), used.end());
+  if (known->second >= joints) {
+    skin.at("joints").refuse(fmt::format("{} joints, but mesh \"{}\" follows joint {}", joints,
+                                         context_.scene.meshes[mesh].name, known->second),
+                             "a joint for every number in JOINTS_0");
   }
 }
 
@@ -87,23 +89,23 @@ void SkinReader::attach(const SkinnedNode& skinned) {
   Scene& scene = context_.scene;
   const std::uint32_t skin = skinOf(skinned.skin);
   if (skin == kNone) {
-    addObjects(context_, skinned.mesh, skinned.node, skinned.node);
+    addObjects(context_, skinned.place, skinned.mesh, skinned.node, skinned.node);
     return;
   }
   Node still;
   still.name = scene.nodes[skinned.node].name;
   const std::uint32_t node = addNode(scene, std::move(still));
-  for (std::size_t i = addObjects(context_, skinned.mesh, node, skinned.node);
-       i < scene.objects.size(); ++i) {
+  const std::size_t first = addObjects(context_, skinned.place, skinned.mesh, node, skinned.node);
+  for (std::size_t i = first; i < scene.objects.size(); ++i) {
     Object& object = scene.objects[i];
     const Mesh& mesh = scene.meshes[object.mesh];
     if (mesh.influences.perVertex == 0) {
-      document_.warn(skinned.place.pointer() + " has a skin, but mesh \"" + mesh.name +
-                     "\" has no JOINTS_0: drawn without the skin");
+      document_.warn(skinned.place, "has a skin, but mesh \"" + mesh.name +
+                                        "\" has no JOINTS_0: drawn without the skin");
       object.node = skinned.node;
       continue;
     }
-    requireJoints(places_[skinned.skin], mesh, scene.skins[skin].joints.size());
+    requireJoints(places_[skinned.skin], object.mesh, scene.skins[skin].joints.size());
     object.skin = skin;
   }
 }

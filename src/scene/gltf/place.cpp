@@ -12,18 +12,17 @@ namespace {
 // Depth-first search for the value's address; the depth is limited when the file is read.
 bool findPointer(const Json& here, const Json* wanted, std::string& pointer) {
   if (&here == wanted) return true;
-  const std::size_t length = pointer.size();
   if (here.is_object()) {
     for (auto it = here.begin(); it != here.end(); ++it) {
-      pointer += "/" + it.key();
-      if (findPointer(it.value(), wanted, pointer)) return true;
-      pointer.resize(length);
+      if (!findPointer(it.value(), wanted, pointer)) continue;
+      pointer = "/" + it.key() + pointer;
+      return true;
     }
   } else if (here.is_array()) {
     for (std::size_t i = 0; i < here.size(); ++i) {
-      pointer += "/" + std::to_string(i);
-      if (findPointer(here[i], wanted, pointer)) return true;
-      pointer.resize(length);
+      if (!findPointer(here[i], wanted, pointer)) continue;
+      pointer = "/" + std::to_string(i) + pointer;
+      return true;
     }
   }
   return false;
@@ -102,6 +101,16 @@ std::vector<Place> Place::elements() const {
 std::vector<Place> Place::elements(const char* key) const {
   const auto array = find(key);
   return array ? array->elements() : std::vector<Place>();
+}
+
+std::string Place::name(const std::string& fallback) const {
+  constexpr std::size_t kMaxBytes = 250;
+  const auto place = find("name");
+  const std::string& whole = place ? place->text() : fallback;
+  if (whole.size() <= kMaxBytes) return whole;
+  std::size_t size = kMaxBytes;
+  while (size > 0 && (static_cast<unsigned char>(whole[size]) & 0xC0) == 0x80) --size;  // of UTF-8
+  return whole.substr(0, size) + "...";
 }
 
 const std::string& Place::text() const {

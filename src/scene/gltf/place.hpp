@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "core/check.hpp"
 #include "core/math/math.hpp"
+#include "core/result.hpp"
 
 namespace lucerna::scene::gltf {
 
@@ -20,6 +20,7 @@ using Json = nlohmann::json;
 
 struct Fault {
   std::string message;  // place, found, wanted, next step; the file's name is added by readGltf()
+  ErrorKind kind = ErrorKind::Input;
 };
 
 // "PLACE: found FOUND, wanted WANTED; NEXT"
@@ -34,6 +35,7 @@ class Place {
 
   // The JSON pointer, e.g. "/accessors/3/count". Searches the document: for messages only.
   std::string pointer() const;
+  const void* id() const { return value_; }                   // of the value
   [[noreturn]] void refuse(const std::string& wanted) const;  // found: the value itself
   [[noreturn]] void refuse(const std::string& found, const std::string& wanted) const;
 
@@ -48,6 +50,10 @@ class Place {
   // Arrays. elements("x") of an object: its array member x, or nothing if it has none.
   std::vector<Place> elements() const;
   std::vector<Place> elements(const char* key) const;
+
+  // The member "name", of which about 250 bytes are kept: what stands once in a file may be copied
+  // for everything that is made of it.
+  std::string name(const std::string& fallback) const;
 
   // Values.
   const std::string& text() const;

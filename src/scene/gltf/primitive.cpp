@@ -266,7 +266,7 @@ void PrimitiveReader::readColors() {
 }
 
 std::optional<Mesh> PrimitiveReader::read() {
-  mode_ = static_cast<int>(source_.place().integer("mode", kTriangles, 0, 6));
+  mode_ = source_.mode();
   if (!source_.attribute("POSITION", {3})) {
     source_.warn("has no POSITION: skipped");
     return std::nullopt;

@@ -47,6 +47,11 @@ const Accessor* PrimitiveSource::checked(const Place& owner, const char* name,
   return accessor;
 }
 
+int PrimitiveSource::mode() const {
+  constexpr int kTriangles = 4;
+  return unpacked_ ? kTriangles : static_cast<int>(primitive_.integer("mode", kTriangles, 0, 6));
+}
+
 const Accessor* PrimitiveSource::indices() const {
   if (unpacked_) return &unpacked_->indices;
   const auto index = primitive_.index("indices", context_.accessors.size(), "accessors");

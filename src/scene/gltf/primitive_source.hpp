@@ -25,6 +25,8 @@ class PrimitiveSource {
   // The same of a morph target, which names them like the primitive.
   const Accessor* targetAttribute(const Place& target, const char* name,
                                   std::initializer_list<int> components);
+  // As glTF counts them; what was packed is a list of triangles.
+  int mode() const;
   // Null if the primitive draws its vertices in their order.
   const Accessor* indices() const;
 
@@ -37,7 +39,7 @@ class PrimitiveSource {
   }
   // "PLACE (NAME) what"
   void warn(const std::string& what) const {
-    context_.document.warn(primitive_.pointer() + " (" + name_ + ") " + what);
+    context_.document.warn(primitive_, "(" + name_ + ") " + what);
   }
 
  private:

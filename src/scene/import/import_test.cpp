@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "core/test_folder.hpp"
 #include "image/image_file.hpp"
 #include "scene/import/ac3d_text.hpp"
 #include "scene/import/mesh_build.hpp"
@@ -22,12 +24,6 @@ namespace fs = std::filesystem;
 
 class Import : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "lucerna_import" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
   fs::path write(const std::string& name, const std::string& text) {
     std::ofstream(folder_ / name, std::ios::binary) << text;
     return folder_ / name;
@@ -38,7 +34,7 @@ class Import : public testing::Test {
       image.as<std::uint8_t>()[static_cast<std::size_t>(i)] = color[i % channels];
     ASSERT_TRUE(writeImage(folder_ / name, image));
   }
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 constexpr const char* kQuad =
@@ -322,6 +318,16 @@ TEST_F(Import, AHangEndsInTime) {
 
 // Reader and program together stay within 1 GiB: the reader's own memory, its answer in the pipe's
 // buffer, which may double while it grows, and the scene made from it.
+TEST_F(Import, AMissingWorkerIsNoFaultOfTheFile) {
+  const std::string before = std::getenv("LUCERNA_WORKER");
+  setenv("LUCERNA_WORKER", "/nowhere/lucerna_worker", 1);
+  const Result<Scene> scene = importScene(write("q.obj", kQuad));
+  setenv("LUCERNA_WORKER", before.c_str(), 1);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().kind, ErrorKind::Failed);
+  EXPECT_THAT(scene.error().message, HasSubstr("build or install it again"));
+}
+
 TEST(ImportLimits, LieBelowTheBoundAndGrowWithTheFile) {
   const ChildLimits small = importLimits(1000), large = importLimits(100 << 20);
   EXPECT_LE(small.time, std::chrono::seconds(6));

@@ -83,7 +83,7 @@ class TextureLoading {
 
   void run() {
     std::vector<std::size_t> tickets, alphaTickets;
-    for (ImportedTexture& texture : imported_.textures) {
+    for (const ImportedTexture& texture : imported_.textures) {
       tickets.push_back(request(texture));
       alphaTickets.push_back(texture.alphaPath.empty() ? tickets.back()
                                                        : requestFile(texture.alphaPath));
@@ -95,9 +95,8 @@ class TextureLoading {
   }
 
  private:
-  std::size_t request(ImportedTexture& texture) {
-    if (!texture.bytes.empty())
-      return store_.addBytes(texture.path, std::exchange(texture.bytes, {}));
+  std::size_t request(const ImportedTexture& texture) {
+    if (!texture.bytes.empty()) return store_.addBytes(texture.path, texture.bytes);
     return requestFile(texture.path);
   }
 
