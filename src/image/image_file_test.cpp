@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 #include <turbojpeg.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstring>
 
 #include "core/log.hpp"
 #include "core/random.hpp"
+#include "core/test_folder.hpp"
 
 namespace lucerna {
 namespace {
@@ -31,18 +31,11 @@ bool same(const Image& a, const Image& b) {
 
 class ImageFileTest : public testing::Test {
  protected:
-  ImageFileTest() {
-    folder_ =
-        fs::temp_directory_path() / ("lucerna_image_file_test_" + std::to_string(::getpid()) + "_" +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::create_directories(folder_);
-  }
-  ~ImageFileTest() override { fs::remove_all(folder_); }
   Bytes written(const std::string& name, const Image& image) {
     EXPECT_TRUE(writeImage(folder_ / name, image));
     return *readFile(folder_ / name);
   }
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 void put(Bytes& bytes, std::initializer_list<int> values) {
@@ -295,7 +288,7 @@ TEST_F(ImageFileTest, WritingTheWrongKindLeavesNoFile) {
   EXPECT_THAT(writeImage(folder_ / "a.exr", u8).error().message, HasSubstr("linear floats"));
   EXPECT_THAT(writeImage(folder_ / "a.hdr", u8).error().message, HasSubstr("linear floats"));
   EXPECT_EQ(writeImage(folder_ / "a.gif", u8).error().kind, ErrorKind::Usage);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST(CorruptPng, OfThePngSuiteIsRefusedWithAReason) {

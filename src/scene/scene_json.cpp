@@ -17,6 +17,7 @@ constexpr const char* kFormat = "scene/1";
 constexpr std::size_t kMaxFiles = 1000;
 constexpr std::uint64_t kMaxRepeatedBytes = 256ull << 20;
 constexpr std::size_t kMaxDepth = 32;
+constexpr NumberRange kScale{1e-6f, 1e6f};
 
 // "rotation": three Euler angles, about x first, then y, then z, in degrees; or a quaternion x y z
 // w.
@@ -44,10 +45,12 @@ void readScale(const JsonValue& include, Node& node) {
   float uniform = 1.f;
   vec3 axes(1.f);
   if (scale.isNumber()) {
-    if (scale.number(uniform, {1e-6f, 1e6f})) node.scale = vec3(uniform);
+    if (scale.number(uniform, kScale)) node.scale = vec3(uniform);
   } else if (scale.numbers({glm::value_ptr(axes), 3}, kAnyNumber)) {
-    if (axes.x == 0.f || axes.y == 0.f || axes.z == 0.f)
-      scale.wrong("factors that are not zero");
+    const vec3 size = glm::abs(axes);
+    if (glm::any(glm::lessThan(size, vec3(kScale.min))) ||
+        glm::any(glm::greaterThan(size, vec3(kScale.max))))
+      scale.wrong(fmt::format("factors from {} to {}, or that below 0", kScale.min, kScale.max));
     else
       node.scale = axes;
   }
@@ -67,9 +70,9 @@ void readAnimation(const JsonValue& owner, Scene& scene) {
 }
 
 // The scene to include, read when it is met for the first time. Null if it is faulty, which is told
-// once.
-Scene* includedScene(const JsonValue& file, const std::string& name, const fs::path& folder,
-                     SceneLoad& load) {
+// once. An error is none of the files': the reading must end.
+Result<Scene*> includedScene(const JsonValue& file, const std::string& name, const fs::path& folder,
+                             SceneLoad& load) {
   const bool builtin = name.starts_with("builtin:");
   std::error_code code;
   const std::string key = builtin ? name : fs::weakly_canonical(folder / name, code).string();
@@ -90,13 +93,14 @@ Scene* includedScene(const JsonValue& file, const std::string& name, const fs::p
     return nullptr;
   }
   Result<Scene> scene = readScene(builtin ? name : (folder / name).string(), load);
+  if (!scene && scene.error().kind != ErrorKind::Input) return scene.error();
   if (!scene) file.fault(scene.error().message);
   Result<Scene>& kept = load.included.insert_or_assign(key, std::move(scene)).first->second;
   return kept ? &*kept : nullptr;
 }
 
-void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scene,
-                  SceneLoad& load) {
+Status readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scene,
+                    SceneLoad& load) {
   std::map<const Scene*, std::size_t> materials;  // where those of an included scene begin
   for (const JsonValue& entry : includes.elements()) {
     if (!entry.object({"file", "translation", "rotation", "scale", "animation"})) continue;
@@ -106,7 +110,7 @@ void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scen
     entry.read("translation", node.translation);
     readRotation(entry, node);
     readScale(entry, node);
-    Scene* part = includedScene(entry.at("file"), node.name, folder, load);
+    LUCERNA_TRY(part, includedScene(entry.at("file"), node.name, folder, load));
     if (!part) continue;
     const auto [known, isNew] = materials.emplace(part, scene.materials.size());
     Scene copy = *part;
@@ -115,6 +119,7 @@ void readIncludes(const JsonValue& includes, const fs::path& folder, Scene& scen
     append(scene, std::move(copy), node, isNew ? std::nullopt : std::optional(known->second));
     part->warnings.clear();
   }
+  return {};
 }
 
 // The file may not be among those that are being read.
@@ -136,12 +141,12 @@ Status enter(const fs::path& path, SceneLoad& load) {
   return {};
 }
 
-void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoad& load) {
+Status apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoad& load) {
   if (!root.object({"$schema", "lucerna", "include", "materials", "lights", "lightSettings",
                     "cameras", "background", "ambient", "exposure", "animation"}))
-    return;
+    return {};
   root.format(kFormat);
-  if (root.has("include")) readIncludes(root.at("include"), folder, scene, load);
+  if (root.has("include")) LUCERNA_TRY_VOID(readIncludes(root.at("include"), folder, scene, load));
   readAnimation(root, scene);
   JsonPictures pictures(folder, load);
   if (root.has("materials")) readMaterials(root.at("materials"), pictures, scene);
@@ -151,6 +156,7 @@ void apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoa
   if (root.has("background")) readBackground(root.at("background"), pictures, scene.background);
   root.read("ambient", scene.ambient, kNotNegative);
   root.read("exposure", scene.exposure, {-30.f, 30.f, "EV"});
+  return {};
 }
 
 }  // namespace
@@ -163,8 +169,9 @@ Status addSceneJson(Scene& scene, const fs::path& path, SceneLoad& load) {
 Status addSceneJson(Scene& scene, const fs::path& path, const std::string& text, SceneLoad& load) {
   LUCERNA_TRY(document, JsonDocument::parse(text, path.string(), ErrorKind::Input));
   LUCERNA_TRY_VOID(enter(path, load));
-  apply(document.root(), path.parent_path(), scene, load);
+  const Status applied = apply(document.root(), path.parent_path(), scene, load);
   load.open.pop_back();
+  LUCERNA_TRY_VOID(applied);
   return document.status();
 }
 

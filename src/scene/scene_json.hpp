@@ -12,7 +12,7 @@ namespace lucerna::scene {
 
 // Applies the JSON to `scene`, whose meshes and textures are in `load`: includes, then materials
 // and light settings by name, then new lights, cameras and settings. The error lists every fault,
-// one a line.
+// one a line; or it says why reading an included scene ended, where no file is to blame.
 Status addSceneJson(Scene& scene, const std::filesystem::path& path, SceneLoad& load);
 // The same for the file's text. `path` stands for it in messages and says where the files lie that
 // it names.

@@ -2,10 +2,14 @@
 
 #include <gmock/gmock.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "core/file.hpp"
+#include "core/progress.hpp"
+#include "core/test_folder.hpp"
 #include "image/image_file.hpp"
 #include "scene/load.hpp"
 
@@ -20,10 +24,6 @@ namespace fs = std::filesystem;
 class SceneJson : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) / "lucerna_scene_json" /
-              testing::UnitTest::GetInstance()->current_test_info()->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
     write("tri.obj", "mtllib tri.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
     write("tri.mtl", "newmtl paint\nKd 0.5 0.5 0.5\n");
   }
@@ -46,7 +46,7 @@ class SceneJson : public testing::Test {
     return scene.error().message;
   }
 
-  fs::path folder_;
+  TestFolder folder_;
 };
 
 TEST_F(SceneJson, OpacityOfOneLeavesTheAlphaModeAlone) {
@@ -333,6 +333,48 @@ TEST_F(SceneJson, NumbersAndKeysThatMakeNoSenseAreRefused) {
   EXPECT_THAT(faultsOf(R"({"lucerna": "scene/1", "cameras": [
     {"position": [0, 0, 5], "target": [0, 0, 0], "near": 5, "far": 1}]})"),
               HasSubstr("s.json:2: /cameras/0/far: found 1, wanted more than near, 5 m"));
+}
+
+TEST_F(SceneJson, ScalesAreNeitherNothingNorEverything) {
+  for (const char* scale : {"1e-15", "[1, 1e-15, 1]", "[1, -1e-15, 1]", "[1e7, 1, 1]", "0"})
+    EXPECT_THAT(faultsOf(fmt::format(R"({{"lucerna": "scene/1", "include": [
+                  {{"file": "tri.obj", "scale": {}}}]}})",
+                                     scale)),
+                HasSubstr("/include/0/scale: found"))
+        << scale;
+  EXPECT_EQ(faultsOf(R"({"lucerna": "scene/1", "include": [
+                     {"file": "tri.obj", "scale": [1e-6, -1, 1e6]}]})"),
+            "");
+}
+
+// A worker that is missing is not the files' fault, and is told once.
+TEST_F(SceneJson, WhatIsNoFaultOfAFileEndsTheReading) {
+  write("inner.json", R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}]})");
+  write("s.json", R"({"lucerna": "scene/1", "exposure": "bright",
+                      "include": [{"file": "inner.json"}, {"file": "inner.json"}]})");
+  const std::string before = std::getenv("LUCERNA_WORKER");
+  setenv("LUCERNA_WORKER", "/nowhere/lucerna_worker", 1);
+  const Result<Scene> scene = loadScene(path("s.json"));
+  setenv("LUCERNA_WORKER", before.c_str(), 1);
+  ASSERT_FALSE(scene);
+  EXPECT_EQ(scene.error().kind, ErrorKind::Failed);
+  EXPECT_THAT(scene.error().message,
+              AllOf(HasSubstr("tri.obj: the reader"), testing::Not(HasSubstr("exposure"))));
+}
+
+TEST_F(SceneJson, IncludesEndWhenTheUserCancels) {
+  write("worker_hangs.obj", "v 0 0 0\n");
+  write("s.json", R"({"lucerna": "scene/1", "include": [{"file": "worker_hangs.obj"}]})");
+  // In a process of its own, since cancelling is for good.
+  EXPECT_EXIT(
+      {
+        Progress::catchInterrupt();
+        raise(SIGINT);
+        const Result<Scene> scene = loadScene(path("s.json"));
+        std::fprintf(stderr, "%s", scene.error().message.c_str());
+        std::_Exit(static_cast<int>(scene.error().kind));
+      },
+      testing::ExitedWithCode(130), "worker_hangs.obj: the reader of this file was cancelled");
 }
 
 TEST_F(SceneJson, ACircleOfIncludesIsRefused) {
