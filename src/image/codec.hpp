@@ -35,7 +35,8 @@ extern const Format kPng, kJpeg, kBmp, kHdr, kExr, kTga;
 Result<Bytes> encodePng(const Image& image, const std::string& name);
 Result<Bytes> encodeHdr(const Image& image, const std::string& name);
 Result<Bytes> encodeExr(const std::vector<ExrLayer>& layers, const std::string& name);
-Result<std::vector<ExrLayer>> decodeExrLayers(ByteView bytes, const std::string& name);
+Result<std::vector<ExrLayer>> decodeExrLayers(ByteView bytes, const std::string& name,
+                                              const ImageLimits& limits);
 
 // Deflate cannot shrink by more (RFC 1951: 258 bytes in two bits, and some).
 constexpr std::uint64_t kDeflateRatio = 1032;

@@ -161,24 +161,37 @@ Status appendLayers(Imf::InputPart& part, bool severalParts, const std::string& 
 }
 
 // Of all channels of a part, none of them taking more than a float.
-std::uint64_t bytesOf(const Imf::Header& header) {
+ImageInfo infoOf(const Imf::Header& header) {
   const Imath::Box2i window = header.dataWindow();
-  ImageInfo info{"EXR", window.max.x - window.min.x + 1, window.max.y - window.min.y + 1,
-                 static_cast<int>(channelNames(header.channels()).size()), ComponentType::F32};
-  return info.bytes();
+  return {"EXR", window.max.x - window.min.x + 1, window.max.y - window.min.y + 1,
+          static_cast<int>(channelNames(header.channels()).size()), ComponentType::F32};
 }
 
-Result<std::vector<ExrLayer>> decodeAll(ByteView bytes, const std::string& name) {
-  MemoryInput stream(bytes, name);
-  Imf::MultiPartInputFile file(stream);
-  std::vector<ExrLayer> layers;
+Status checkParts(const Imf::MultiPartInputFile& file, const std::string& name,
+                  const ImageLimits& limits) {
   std::uint64_t decoded = 0;
   for (int i = 0; i < file.parts(); ++i) {
-    Imf::InputPart part(file, i);
-    decoded += bytesOf(part.header());
-    if (decoded > ImageLimits{}.maxBytes)
+    const ImageInfo info = infoOf(file.header(i));
+    if (info.width > limits.maxSide || info.height > limits.maxSide)
+      return error(ErrorKind::Input,
+                   "{}: part {} has {}x{} pixels; at most {} a side are read; make it smaller",
+                   name, i + 1, info.width, info.height, limits.maxSide);
+    decoded += info.bytes();
+    if (decoded > limits.maxBytes)
       return error(ErrorKind::Input, "{}: its layers take more than {} once decoded; take some out",
-                   name, bytesText(ImageLimits{}.maxBytes));
+                   name, bytesText(limits.maxBytes));
+  }
+  return {};
+}
+
+Result<std::vector<ExrLayer>> decodeAll(ByteView bytes, const std::string& name,
+                                        const ImageLimits& limits) {
+  MemoryInput stream(bytes, name);
+  Imf::MultiPartInputFile file(stream);
+  LUCERNA_TRY_VOID(checkParts(file, name, limits));
+  std::vector<ExrLayer> layers;
+  for (int i = 0; i < file.parts(); ++i) {
+    Imf::InputPart part(file, i);
     LUCERNA_TRY_VOID(appendLayers(part, file.parts() > 1, name, layers));
   }
   return layers;
@@ -233,8 +246,9 @@ void addLayer(const ExrLayer& layer, Imf::Header& header, Imf::FrameBuffer& sour
 
 const Format kExr = {"EXR", ".exr", recognises, readHeader, decode};
 
-Result<std::vector<ExrLayer>> decodeExrLayers(ByteView bytes, const std::string& name) {
-  return withoutExceptions(name, [&] { return decodeAll(bytes, name); });
+Result<std::vector<ExrLayer>> decodeExrLayers(ByteView bytes, const std::string& name,
+                                              const ImageLimits& limits) {
+  return withoutExceptions(name, [&] { return decodeAll(bytes, name, limits); });
 }
 
 Result<Bytes> encodeExr(const std::vector<ExrLayer>& layers, const std::string& name) {

@@ -120,7 +120,7 @@ Result<std::vector<ExrLayer>> decodeExrLayers(std::span<const std::byte> bytes,
                                               const std::string& name, const ImageLimits& limits) {
   LUCERNA_TRY(header, codec::kExr.readHeader(bytes, name));
   LUCERNA_TRY_VOID(checkSize(header, bytes, name, limits));
-  return codec::decodeExrLayers(bytes, name);
+  return codec::decodeExrLayers(bytes, name, limits);
 }
 
 Result<std::vector<ExrLayer>> readExrLayers(const std::filesystem::path& path) {

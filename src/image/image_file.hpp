@@ -52,6 +52,7 @@ struct ExrLayer {
   Image image;   // F32 or Half; all layers have the same size
 };
 Status writeExr(const std::filesystem::path& path, const std::vector<ExrLayer>& layers);
+// The limits hold for the sides of each part and for the bytes of all of them together.
 Result<std::vector<ExrLayer>> decodeExrLayers(std::span<const std::byte> bytes,
                                               const std::string& name,
                                               const ImageLimits& limits = {});

@@ -1,7 +1,9 @@
 #include "image/image_file.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <turbojpeg.h>
+#include <zlib.h>
 
 #include <cmath>
 #include <cstring>
@@ -261,6 +263,50 @@ TEST_F(ImageFileTest, DeclaredSizesAreCheckedBeforeAllocation) {
   EXPECT_THAT(declare(24, 11), HasSubstr("IHDR: CRC error"));
 }
 
+// A chunk of a PNG with its checksum.
+void putChunk(Bytes& png, const std::string& type, const Bytes& data) {
+  const auto put32 = [&](std::uint32_t value) {
+    for (int shift = 24; shift >= 0; shift -= 8)
+      png.push_back(static_cast<std::byte>(value >> shift));
+  };
+  put32(static_cast<std::uint32_t>(data.size()));
+  const std::size_t begin = png.size();
+  for (const char c : type) png.push_back(static_cast<std::byte>(c));
+  png.insert(png.end(), data.begin(), data.end());
+  put32(static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(&png[begin]),
+                                         static_cast<uInt>(png.size() - begin))));
+}
+
+// 1.6 GB of text in 1.6 MB: libpng would inflate each text and keep it.
+TEST_F(ImageFileTest, TextsOfAPngAreNotInflated) {
+  const Bytes text(40 << 20, std::byte{'a'});
+  uLongf size = compressBound(text.size());
+  Bytes deflated(size);
+  ASSERT_EQ(compress(reinterpret_cast<Bytef*>(deflated.data()), &size,
+                     reinterpret_cast<const Bytef*>(text.data()), text.size()),
+            Z_OK);
+  deflated.resize(size);
+  Bytes data{std::byte{'k'}, std::byte{0}, std::byte{0}};  // keyword, its end, deflate
+  data.insert(data.end(), deflated.begin(), deflated.end());
+
+  const Image image = randomImage(4, 3, 3, ComponentType::U8);
+  const Bytes plain = written("a.png", image);
+  constexpr std::size_t kHeaderEnd = 33;
+  Bytes png(plain.begin(), plain.begin() + kHeaderEnd);
+  for (int i = 0; i < 40; ++i) putChunk(png, "zTXt", data);
+  png.insert(png.end(), plain.begin() + kHeaderEnd, plain.end());
+  const auto kibibytes = [] {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;
+  };
+  const long before = kibibytes();
+  const auto back = decodeImage(png, "a.png");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_TRUE(same(*back, image));
+  EXPECT_LT(kibibytes() - before, 64 << 10);
+}
+
 // A float takes four times what a byte takes.
 TEST_F(ImageFileTest, BytesAreLimitedNotPixels) {
   const ImageLimits limits{.maxBytes = 1000};
@@ -270,6 +316,24 @@ TEST_F(ImageFileTest, BytesAreLimitedNotPixels) {
   for (const char* name : {"a.hdr", "a.exr"})
     EXPECT_THAT(decodeImage(written(name, f32), name, limits).error().message,
                 HasSubstr("declares 16x16 pixels, which take 3 KiB once decoded; at most 1000 B"));
+}
+
+TEST_F(ImageFileTest, LimitsHoldForAllLayersAndPartsOfAnExr) {
+  const Image color = randomImage(8, 5, 4, ComponentType::F32);
+  const Image depth = randomImage(8, 5, 1, ComponentType::F32);
+  ASSERT_TRUE(
+      writeExr(folder_ / "a.exr", {{"", {"R", "G", "B", "A"}, color}, {"d", {"Z"}, depth}}));
+  const Bytes two = *readFile(folder_ / "a.exr");
+  EXPECT_EQ(decodeExrLayers(two, "a.exr", {.maxBytes = 800})->size(), 2u);
+  EXPECT_THAT(decodeExrLayers(two, "a.exr", {.maxBytes = 799}).error().message,
+              HasSubstr("its layers take more than 799 B"));
+
+  Bytes parts = *readFile(fs::path(LUCERNA_SOURCE_DIR) / "tests/fuzz/corpus/exr/parts.exr");
+  const std::string_view text(reinterpret_cast<const char*>(parts.data()), parts.size());
+  constexpr std::string_view kWindow{"dataWindow\0box2i", 16};
+  parts[text.rfind(kWindow) + kWindow.size() + 1 + 4 + 8] = std::byte{199};  // its right side
+  EXPECT_THAT(decodeExrLayers(parts, "a.exr", {.maxSide = 100}).error().message,
+              HasSubstr("part 2 has 200x4 pixels; at most 100 a side"));
 }
 
 TEST_F(ImageFileTest, WhatIsNoPictureIsNamed) {

@@ -13,9 +13,8 @@ namespace {
 
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 constexpr std::size_t kFirstChunk = 8;
-constexpr std::size_t kHeaderEnd = 33;  // signature and IHDR
-constexpr png_alloc_size_t kMaxChunkBytes = 64 << 20;
-constexpr int kMaxAncillaryChunks = 1000;
+constexpr std::size_t kHeaderEnd = 33;                 // signature and IHDR
+constexpr png_alloc_size_t kMaxChunkBytes = 64 << 20;  // of chunks that are passed over, too
 // Of the levels 1 to 9: pictures are written often, so time counts for more than size.
 constexpr int kCompressionLevel = 3;
 
@@ -54,7 +53,9 @@ bool readInfo(PngReader& reader) {
   png_set_read_fn(reader.png, &reader, PngReader::onRead);
   png_set_user_limits(reader.png, 0x7fffffff, 0x7fffffff);  // checked by decodeImage
   png_set_chunk_malloc_max(reader.png, kMaxChunkBytes);
-  png_set_chunk_cache_max(reader.png, kMaxAncillaryChunks);
+  // Passes over all chunks but IHDR, PLTE, tRNS, IDAT and IEND: values are given as stored, so that
+  // no profile and no gamma counts, and texts inflate to a thousand times their size.
+  png_set_keep_unknown_chunks(reader.png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(reader.png, reader.info);
   return true;
 }
