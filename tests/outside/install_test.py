@@ -5,26 +5,15 @@ Usage: install_test.py SOURCE_DIR BINARY_DIR COMPILER [unittest arguments]
 """
 import os
 import pathlib
-import re
 import shutil
 import subprocess
 import tempfile
 
 import outside
-from outside import BUILD, COMPILER, SOURCE
+from outside import BUILD, COMPILER, SOURCE, commands
 
-PAGE = SOURCE / "docs" / "dev" / "adding_a_pass.md"
 # Nothing of this build may help.
 ALONE = {"LUCERNA_WORKER": None, "LUCERNA_SHADERS": None, "LD_LIBRARY_PATH": None}
-
-
-INSTALL = "cmake --install build/release --prefix out/lucerna\n"
-
-
-def commands(section):
-    """Those of a section of the page."""
-    text = re.search(rf"^## {section}\n(.*?)(?=^## |\Z)", PAGE.read_text(), re.S | re.M).group(1)
-    return "".join(re.findall(r"^```sh\n(.*?)^```", text, re.S | re.M))
 
 
 class InstallTest(outside.OutsideTest):
@@ -33,22 +22,21 @@ class InstallTest(outside.OutsideTest):
         folder = tempfile.TemporaryDirectory(prefix="lucerna-install-")
         cls.addClassCleanup(folder.cleanup)
         # As the page sees it: a checkout, its build, and out/ to write into.
-        cls.checkout = pathlib.Path(folder.name) / "checkout"
+        cls.checkout = pathlib.Path(folder.name).resolve() / "checkout"
         cls.out = cls.checkout / "out"
         cls.out.mkdir(parents=True)
         (cls.checkout / "examples").symlink_to(SOURCE / "examples")
         (cls.checkout / "build").mkdir()
         (cls.checkout / "build" / "release").symlink_to(BUILD)
-        first = pathlib.Path(folder.name) / "first"
+        first = cls.out / "first"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", first], check=True, stdout=subprocess.DEVNULL)
-        cls.prefix = cls.out / "lucerna"
+        cls.prefix = cls.out / "moved"
         shutil.move(first, cls.prefix)
         cls.lucerna = cls.prefix / "bin" / "lucerna"
         cls.packages = next(cls.prefix.rglob("pkgconfig"))
 
     def follow(self, section):
-        script = commands(section).replace(INSTALL, "")  # that is done, and moved since
-        self.succeed("bash", "-ec", script, cwd=self.checkout, CXX=str(COMPILER), **ALONE)
+        self.succeed("bash", "-ec", commands(section), cwd=self.checkout, CXX=str(COMPILER), **ALONE)
 
     def pictures(self, *names):
         for name in names:
@@ -74,21 +62,31 @@ class InstallTest(outside.OutsideTest):
         self.addCleanup(os.remove, renamed)
         self.succeed(renamed, "pipeline", "check", "deferred", **ALONE)
 
-    def test_every_header_compiles(self):
+    def test_every_header_compiles_with_glm_and_fmt_alone(self):
         flags = self.succeed("pkg-config", "--cflags", "lucerna", PKG_CONFIG_PATH=str(self.packages)).split()
         include = self.prefix / "include" / "lucerna"
-        everything = self.out / "everything.cpp"
         headers = sorted(path.relative_to(include) for path in include.rglob("*.hpp"))
         self.assertGreater(len(headers), 40)
+        everything, standard = self.out / "everything.cpp", self.out / "standard.cpp"
         everything.write_text("".join(f'#include "{header}"\n' for header in headers))
-        self.succeed(COMPILER, "-std=c++20", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", *flags, everything)
+        standard.write_text("#include <bits/stdc++.h>\n")  # all of C++ and what it takes of C
+        compiler = [COMPILER, "-std=c++20", *flags]
+        self.succeed(*compiler, "-Wall", "-Wextra", "-Werror", "-fsyntax-only", everything)
+
+        def read(source):
+            rule = self.succeed(*compiler, "-M", source).replace("\\\n", " ")
+            return {pathlib.Path(name).resolve() for name in rule.partition(": ")[2].split()}
+        self.assertTrue({include / header for header in headers} <= read(everything))
+        beside = read(everything) - read(standard) - {everything}
+        foreign = [str(path) for path in sorted(beside)
+                   if not path.is_relative_to(include) and not {"glm", "fmt"} & set(path.parts)]
+        self.assertEqual(foreign, [])
 
     def test_the_page_of_a_shader(self):
         self.follow("A shader")
         self.pictures("edges.png")
 
     def test_the_page_of_a_plugin_and_of_a_program(self):
-        self.assertIn(INSTALL, commands("A plugin"))
         self.follow("A plugin")
         self.pictures("vignette.png", "again.png")
         self.assertEqual((self.out / "vignette.png").read_bytes(), (self.out / "again.png").read_bytes())

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""tools/new_pass in a copy of the tree: what it makes compiles, is registered, draws, and passes its test.
+"""tools/new_pass in a copy of the tree, and what docs/dev/adding_a_pass.md does next: what it makes compiles, is
+registered, draws, and passes all tests of passes.
 
-Of the copy only the objects are built that the new pass changes; the rest is linked from this build.
+Where the page says ./dev build, only the objects are built that the new pass changes; the rest is linked from this
+build.
 Usage: new_pass_test.py SOURCE_DIR BINARY_DIR COMPILER [unittest arguments]
 """
 import pathlib
@@ -10,7 +12,7 @@ import shutil
 import subprocess
 
 import outside
-from outside import BUILD, SOURCE
+from outside import BUILD, SOURCE, commands
 
 COPY = BUILD / "new_pass"  # always the same, so that a compiler cache helps
 MADE = COPY / "build" / "release"
@@ -48,7 +50,6 @@ class NewPassTest(outside.OutsideTest):
         words[at + 1] = MADE / "bin" / program
         words[at:at] = [MADE / name for name in objects]
         self.succeed(*words, cwd=BUILD)
-        return MADE / "bin" / program
 
     def test_bad_and_taken_names_leave_the_tree_as_it_was(self):
         before = contents(COPY)
@@ -60,25 +61,33 @@ class NewPassTest(outside.OutsideTest):
             self.assertIn(wanted, run.stderr)
         self.assertEqual(contents(COPY), before)
 
-    def test_what_it_makes_works(self):
-        self.succeed(COPY / "tools" / "new_pass", NAME)
-        self.assertEqual(self.run_command(COPY / "tools" / "new_pass", NAME).returncode, 2)
-        self.succeed("cmake", "--preset", "release", cwd=COPY)
+    def follow(self, command):
+        return self.succeed("bash", "-ec", command, cwd=COPY)
+
+    def build(self):
+        self.follow("cmake --preset release")
         self.succeed("ninja", "-C", MADE, *OBJECTS, *TESTS)
         (MADE / "bin").mkdir(exist_ok=True)
+        self.link("passes_test", OBJECTS)
+        self.link("passes_gl_test", OBJECTS + TESTS, drop="/passes_gl_test.cpp.o")
+        self.link("lucerna", OBJECTS)
 
-        test = self.link("passes_gl_test", OBJECTS + TESTS, drop="passes_gl_test.dir/")
-        run = self.succeed(test, f"--gtest_filter={NAME}.*:*/{NAME}")
+    def test_the_page_of_a_pass_of_lucerna(self):
+        page = commands("A pass of Lucerna").replace("FilmGrain", NAME).replace("film_grain", FOLDER).splitlines()
+        make, build, *rest = page
+        printed = self.follow(make)
+        self.assertEqual(printed.partition("next:\n")[2].split("\n"), [f"  {step}" for step in (build, *rest)] + [""])
+        self.assertEqual(self.run_command(COPY / "tools" / "new_pass", NAME).returncode, 2)
+        self.assertEqual(build, "./dev build")
+        self.build()
+        for command in rest:
+            self.follow(command)
+
+        run = self.succeed(MADE / "bin" / "passes_gl_test", f"--gtest_filter={NAME}.*:*/{NAME}")
         self.assertIn("[  PASSED  ] 4 tests", run)
-
-        program = self.link("lucerna", OBJECTS)
-        self.succeed(COPY / "tools" / "pass_pages", "--check", "--lucerna", program)
-        self.succeed(COPY / "tools" / "make_figures", f"src/passes/{FOLDER}/README.md", cwd=COPY)
-        figure = COPY / "src" / "passes" / FOLDER / f"{FOLDER}.js"
+        program, figure = MADE / "bin" / "lucerna", COPY / "src" / "passes" / FOLDER / f"{FOLDER}.js"
         self.assert_whole_deferred_picture(program, figure)
         self.assert_joins_in_tiles(MADE, program, "--pipeline", figure)
-        for check in ("check_links", "check_layers", "check_shaders"):
-            self.succeed(COPY / "tools" / check, COPY)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 import unittest
@@ -9,6 +10,13 @@ import unittest
 SOURCE, BUILD, COMPILER = (pathlib.Path(word) for word in sys.argv[1:4])
 LUCERNA = BUILD / "bin" / "lucerna"
 EXAMPLE = SOURCE / "examples" / "vignette"
+PAGE = SOURCE / "docs" / "dev" / "adding_a_pass.md"
+
+
+def commands(section):
+    """Those of a section of the page, as it gives them."""
+    text = re.search(rf"^## {section}\n(.*?)(?=^## |\Z)", PAGE.read_text(), re.S | re.M).group(1)
+    return "".join(re.findall(r"^```sh\n(.*?)^```", text, re.S | re.M))
 
 
 class OutsideTest(unittest.TestCase):
