@@ -1,4 +1,5 @@
-// Whether a reader follows the names of other files in a file: buffers, pictures, included scenes.
+// Whether a reader follows the names of other files in a file: buffers, pictures, included scenes;
+// and has data unpacked that only a process of its own may unpack.
 #pragma once
 
 namespace lucerna::scene {

@@ -24,6 +24,7 @@ void image(ByteView bytes);         // headers and pixels of PNG, JPEG, TGA, BMP
 void exr(ByteView bytes);           // header, main picture and layers of OpenEXR
 void scriptAnswer(ByteView bytes);  // what a script's process writes
 void importAnswer(ByteView bytes);  // what the import worker writes
+void dracoAnswer(ByteView bytes);   // what the worker that unpacks Draco's meshes writes
 
 // What the targets share.
 std::string_view textOf(ByteView bytes);

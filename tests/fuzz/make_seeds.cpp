@@ -1,11 +1,12 @@
 // Writes the seeds and the dictionary that must follow the code: what passes declare, and the
-// import worker's stream.   fuzz_make_seeds FOLDER
+// workers' streams.   fuzz_make_seeds FOLDER
 #include <cstdio>
 #include <set>
 
 #include "core/file.hpp"
 #include "graph/pipeline.hpp"
 #include "passes/register_passes.hpp"
+#include "scene/gltf/draco_decode.hpp"
 #include "scene/import/scene_stream.hpp"
 
 namespace lucerna {
@@ -80,16 +81,25 @@ scene::ImportedScene importedScene() {
   return imported;
 }
 
+// As draco_answer_fuzz.cpp asks for them.
+std::vector<scene::gltf::DracoMesh> dracoMeshes() {
+  return {{.fault = "", .indices = {0, 1, 2}, .attributes = {Bytes(36), Bytes(12)}},
+          {.fault = "", .indices = {0, 1, 2, 2, 1, 3}, .attributes = {Bytes(16)}}};
+}
+
 Status write(const fs::path& folder) {
   graph::Registry registry;
   passes::registerPasses(registry);
   std::error_code ignored;  // writing tells
   fs::create_directories(folder / "pipeline", ignored);
   fs::create_directories(folder / "import_answer", ignored);
+  fs::create_directories(folder / "draco_answer", ignored);
   LUCERNA_TRY_VOID(writeText(folder / "pipeline.dict", dictionary(registry)));
   for (const std::string& type : registry.typeNames())
     LUCERNA_TRY_VOID(
         writeText(folder / "pipeline" / (type + ".json"), pipelineWith(type, registry)));
+  LUCERNA_TRY_VOID(
+      writeFile(folder / "draco_answer/meshes.bin", scene::gltf::writeDracoAnswer(dracoMeshes())));
   return writeFile(folder / "import_answer/scene.bin", scene::writeStream(importedScene()));
 }
 

@@ -23,7 +23,8 @@ const Target kTargets[] = {{"gltf", gltf},
                            {"image", image},
                            {"exr", exr},
                            {"script_answer", scriptAnswer},
-                           {"import_answer", importAnswer}};
+                           {"import_answer", importAnswer},
+                           {"draco_answer", dracoAnswer}};
 
 const fs::path kCorpus = fs::path(LUCERNA_SOURCE_DIR) / "tests/fuzz/corpus";
 
