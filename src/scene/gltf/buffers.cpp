@@ -65,13 +65,23 @@ Bytes base64Decoded(std::string_view text, const Place& place) {
   return bytes;
 }
 
+// What to do about a file that is not there: names count from the folder of the scene as it was
+// given, as most tools have it.
+std::string howToPlace(const std::filesystem::path& scene) {
+  std::error_code code;
+  if (!std::filesystem::is_symlink(scene, code)) return "put the file beside the scene";
+  return fmt::format("put the file beside the symbolic link {}, or name what that leads to: {}",
+                     scene.string(), std::filesystem::canonical(scene, code).string());
+}
+
 // A file that has at least `length` bytes: all of it, as far as a buffer can reach, because other
 // buffers may name it too.
-Bytes readBufferFile(const std::filesystem::path& path, std::uint64_t length, const Place& buffer) {
+Bytes readBufferFile(const Document& document, std::uint64_t length, const Place& buffer) {
+  const std::filesystem::path path = resolveUri(document, buffer.at("uri"));
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code)) {
     fail(buffer.at("uri").pointer(), fmt::format("no file {}", path.string()),
-         fmt::format("a file of at least {} bytes", length), "put the file beside the scene");
+         fmt::format("a file of at least {} bytes", length), howToPlace(document.path));
   }
   const std::uint64_t size = std::filesystem::file_size(path, code);
   if (code || size < length) {
@@ -111,7 +121,7 @@ std::span<const std::byte> readBuffer(Document& document, const Place& buffer, s
   if (!inlined) {
     auto& bytes = known[resolveUri(document, *uri).lexically_normal()];
     if (bytes.size() < length) {
-      document.resources.push_back(readBufferFile(resolveUri(document, *uri), length, buffer));
+      document.resources.push_back(readBufferFile(document, length, buffer));
       bytes = document.resources.back();
     }
     return bytes.subspan(0, length);

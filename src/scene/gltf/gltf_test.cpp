@@ -7,6 +7,7 @@ namespace lucerna::scene {
 namespace {
 
 using nlohmann::json;
+using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
 
@@ -291,6 +292,27 @@ TEST_F(GltfFile, RefusesBuffersLargerThanTheirFile) {
   const auto scene = readText(root_.dump());
   ASSERT_FALSE(scene);
   EXPECT_THAT(scene.error().message, HasSubstr("/buffers/0/byteLength: found 4000000000, but"));
+}
+
+TEST_F(GltfFile, BesideASymbolicLinkIsWhereFilesAreLookedFor) {
+  indexedSquare();
+  ASSERT_TRUE(read());
+  std::filesystem::create_directory(folder_ / "links");
+  const std::filesystem::path link = folder_ / "links/link.gltf", target = folder_ / "test.gltf";
+  std::filesystem::create_symlink(target, link);
+  const auto scene = readGltf(link);
+  ASSERT_FALSE(scene);
+  EXPECT_THAT(scene.error().message,
+              AllOf(HasSubstr("found no file " + (folder_ / "links/a b.bin").string()),
+                    HasSubstr("put the file beside the symbolic link " + link.string() +
+                              ", or name what that leads to: " +
+                              std::filesystem::canonical(target).string())));
+  std::filesystem::copy(folder_ / "a b.bin", folder_ / "links/a b.bin");
+  EXPECT_TRUE(readGltf(link));
+  std::filesystem::remove(folder_ / "links/a b.bin");
+  std::filesystem::remove(link);
+  std::filesystem::copy(target, link);
+  EXPECT_THAT(readGltf(link).error().message, HasSubstr("put the file beside the scene"));
 }
 
 TEST_F(GltfFile, BuffersOfOneFileShareItsBytes) {
