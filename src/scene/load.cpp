@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 
 #include "core/text.hpp"
 #include "scene/append.hpp"
@@ -11,6 +12,7 @@
 #include "scene/import/import.hpp"
 #include "scene/load_parts.hpp"
 #include "scene/scene_json.hpp"
+#include "scene/texture_store.hpp"
 
 namespace lucerna::scene {
 namespace {
@@ -54,6 +56,26 @@ Result<Scene> readWhole(const std::string& pathOrName) {
                pathOrName, extension);
 }
 
+// Counts its pictures to those of the scenes before.
+Status countTextures(const Scene& scene, const std::string& name, SceneLoad& load) {
+  std::set<const Image*> known{checkerboard().get()};
+  std::uint64_t bytes = 0;
+  const auto count = [&](const std::shared_ptr<const Image>& image) {
+    if (known.insert(image.get()).second) bytes += image->bytes().size();
+  };
+  for (const Texture& texture : scene.textures) {
+    count(texture.image);
+    for (const auto& face : texture.faces) count(face);
+  }
+  if (bytes > kMaxTextureBytes - load.textureBytes)
+    return error(ErrorKind::Input,
+                 "{}: its textures take {}, and with them those of all scenes more than {}; make "
+                 "them smaller, or include less",
+                 name, bytesText(bytes), bytesText(kMaxTextureBytes));
+  load.textureBytes += bytes;
+  return {};
+}
+
 // What the scene JSON beside a file says.
 Status readBeside(Scene& scene, fs::path path, SceneLoad& load) {
   path.replace_extension(".lucerna.json");
@@ -74,6 +96,7 @@ Result<Scene> readScene(const std::string& pathOrName, SceneLoad& load) {
     LUCERNA_TRY(whole, readWhole(pathOrName));
     if (whole.name.empty()) whole.name = std::move(scene.name);
     scene = std::move(whole);
+    LUCERNA_TRY_VOID(countTextures(scene, pathOrName, load));
     moveShared(scene, load.meshes, load.textures);
     if (isFile) {
       playFirstClip(scene);

@@ -18,6 +18,7 @@ namespace lucerna::scene {
 struct SceneLoad {
   std::vector<Mesh> meshes;
   std::vector<Texture> textures;
+  std::uint64_t textureBytes = 0;           // of their pictures, at most kMaxTextureBytes
   std::vector<std::filesystem::path> open;  // JSONs being read, outermost first
   // What was included, by path or built-in name. Its warnings have been passed on.
   std::map<std::string, Result<Scene>> included;

@@ -154,6 +154,7 @@ Status apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneL
   if (root.has("lights")) readLights(root.at("lights"), scene);
   if (root.has("cameras")) readCameras(root.at("cameras"), scene);
   if (root.has("background")) readBackground(root.at("background"), pictures, scene.background);
+  pictures.load();
   root.read("ambient", scene.ambient, kNotNegative);
   root.read("exposure", scene.exposure, {-30.f, 30.f, "EV"});
   return {};

@@ -1,5 +1,5 @@
 // The sections of a scene JSON. Faults go to the JsonFaults of the value; what is wrong is left as
-// it was.
+// it was, and pictures that cannot be had are checkerboards.
 #pragma once
 
 #include <filesystem>
@@ -9,11 +9,12 @@
 #include "core/json_value.hpp"
 #include "scene/load_parts.hpp"
 #include "scene/scene.hpp"
+#include "scene/texture_store.hpp"
 
 namespace lucerna::scene {
 
-// Pictures that the JSON names, added to the textures of `load`, each once. Paths are relative to
-// the folder.
+// Pictures that the JSON names, added to the textures of `load`, each once; load() then reads them
+// together. Paths are relative to the folder.
 class JsonPictures {
  public:
   JsonPictures(std::filesystem::path folder, SceneLoad& load)
@@ -29,14 +30,24 @@ class JsonPictures {
   // Reports and returns false where no other file may be read.
   bool mayRead(const JsonValue& file) const;
   const std::filesystem::path& folder() const { return folder_; }
+  void load();
 
  private:
-  std::shared_ptr<const Image> load(const JsonValue& file, const std::string& name);
+  // A texture without its image, or without its six faces.
+  struct Wanted {
+    std::uint32_t texture;
+    std::vector<JsonValue> files;
+    std::vector<std::size_t> tickets;
+  };
+  std::uint32_t want(Texture texture, const std::vector<JsonValue>& files,
+                     const std::vector<std::string>& names);
   std::uint32_t addTexture(Texture texture);
   std::uint32_t wrapped(std::uint32_t texture, Wrap wrap);
 
   std::filesystem::path folder_;
   SceneLoad& load_;
+  TextureStore store_;
+  std::vector<Wanted> wanted_;
   std::map<std::string, std::uint32_t> known_;
 };
 

@@ -12,6 +12,7 @@
 #include "core/test_folder.hpp"
 #include "image/image_file.hpp"
 #include "scene/load.hpp"
+#include "scene/texture_store.hpp"
 
 namespace lucerna::scene {
 namespace {
@@ -400,6 +401,30 @@ TEST_F(SceneJson, ABombOfIncludesIsRefused) {
 TEST_F(SceneJson, AMissingBackgroundPictureIsAFault) {
   EXPECT_THAT(faultsOf(R"({"lucerna": "scene/1", "background": {"image": "sky.png"}})"),
               AllOf(HasSubstr("/background/image"), HasSubstr("sky.png")));
+}
+
+// The limit is one for all pictures, of whichever file.
+TEST_F(SceneJson, PicturesMayNotTakeTooMuchTogether) {
+  writePicture("a.png", 4, 2);  // 32 bytes
+  write("tri.mtl", "newmtl paint\nmap_Kd a.png\n");
+  const auto refusal = [&](const std::string& text, std::uint64_t left) {
+    write("s.json", text);
+    Scene scene;
+    SceneLoad load;
+    load.textureBytes = kMaxTextureBytes - left;
+    const Status status = addSceneJson(scene, path("s.json"), load);
+    return status ? std::string() : status.error().message;
+  };
+  const std::string picture = R"({"lucerna": "scene/1", "background": {"image": "a.png"}})";
+  EXPECT_EQ(refusal(picture, 32), "");
+  EXPECT_THAT(refusal(picture, 31), HasSubstr("/background/image: the picture cannot be had: it "
+                                              "takes 32 B, and with it the textures take more"));
+  const std::string include = R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}]})";
+  EXPECT_EQ(refusal(include, 32), "");
+  EXPECT_THAT(refusal(include, 31), HasSubstr("tri.obj: its textures take 32 B"));
+  const std::string both = R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}],
+                               "background": {"image": "a.png"}})";
+  EXPECT_THAT(refusal(both, 63), HasSubstr("/background/image"));
 }
 
 TEST_F(SceneJson, TheExampleOfTheDocumentationIsGood) {

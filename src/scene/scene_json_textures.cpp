@@ -33,26 +33,25 @@ bool JsonPictures::mayRead(const JsonValue& file) const {
   return false;
 }
 
-std::shared_ptr<const Image> JsonPictures::load(const JsonValue& file, const std::string& name) {
-  if (!mayRead(file)) return nullptr;
-  TextureStore store;
-  store.addFile(folder_ / name);
-  std::vector<std::string> problems;
-  std::shared_ptr<const Image> image = store.load(problems).front();
-  for (const std::string& problem : problems)
-    file.fault(problem + "; wanted a picture (PNG, JPEG, TGA, BMP, HDR or EXR)");
-  return problems.empty() ? image : nullptr;
+std::uint32_t JsonPictures::want(Texture texture, const std::vector<JsonValue>& files,
+                                 const std::vector<std::string>& names) {
+  for (const JsonValue& file : files)
+    if (!mayRead(file)) return kNone;
+  Wanted wanted{addTexture(std::move(texture)), files, {}};
+  for (const std::string& name : names) wanted.tickets.push_back(store_.addFile(folder_ / name));
+  wanted_.push_back(std::move(wanted));
+  return wanted_.back().texture;
 }
 
 std::uint32_t JsonPictures::add(const JsonValue& file, Wrap wrap) {
   Texture texture;
   if (!file.text(texture.name)) return kNone;
-  const std::string key = fmt::format("{}\n{}", texture.name, static_cast<int>(wrap));
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  texture.image = load(file, texture.name);
-  if (!texture.image) return kNone;
+  const std::string name = texture.name;
+  const auto [known, isNew] =
+      known_.emplace(fmt::format("{}\n{}", name, static_cast<int>(wrap)), kNone);
   texture.wrapS = texture.wrapT = wrap;
-  return known_[key] = addTexture(std::move(texture));
+  if (isNew) known->second = want(std::move(texture), {file}, {name});
+  return known->second;
 }
 
 std::uint32_t JsonPictures::addCube(const JsonValue& sixFiles) {
@@ -64,22 +63,36 @@ std::uint32_t JsonPictures::addCube(const JsonValue& sixFiles) {
   std::vector<std::string> names(6);
   for (std::size_t i = 0; i < 6; ++i)
     if (!files[i].text(names[i])) return kNone;
-  const std::string key = join(names, "\n");
-  if (const auto known = known_.find(key); known != known_.end()) return known->second;
+  const auto [known, isNew] = known_.emplace(join(names, "\n"), kNone);
   Texture texture;
   texture.name = names[0];
-  for (std::size_t i = 0; i < 6; ++i) {
-    const auto face = load(files[i], names[i]);
-    if (!face) return kNone;
-    texture.faces.push_back(face);
-    if (isFaceLike(*face, *texture.faces.front())) continue;
-    files[i].wrong(fmt::format("a picture of {} x {}", face->width(), face->height()),
-                   "six squares of one size, all with 8 bits or all float");
-    return kNone;
-  }
-  texture.image = texture.faces.front();
+  texture.faces.resize(6);
   texture.wrapS = texture.wrapT = Wrap::ClampToEdge;
-  return known_[key] = addTexture(std::move(texture));
+  if (isNew) known->second = want(std::move(texture), files, names);
+  return known->second;
+}
+
+void JsonPictures::load() {
+  const auto loaded = store_.loadAll(kMaxTextureBytes - load_.textureBytes);
+  for (const auto& [image, problem] : loaded)
+    if (problem.empty()) load_.textureBytes += image->bytes().size();
+  for (const Wanted& wanted : wanted_) {
+    Texture& texture = load_.textures[wanted.texture];
+    const bool firstIsThere = loaded[wanted.tickets[0]].problem.empty();
+    std::vector<std::shared_ptr<const Image>> images;
+    for (std::size_t i = 0; i < wanted.files.size(); ++i) {
+      const auto& [image, problem] = loaded[wanted.tickets[i]];
+      images.push_back(image);
+      if (!problem.empty())
+        wanted.files[i].fault("the picture cannot be had: " + problem);
+      else if (texture.isCube() && firstIsThere && !isFaceLike(*image, *images.front()))
+        wanted.files[i].wrong(fmt::format("a picture of {} x {}", image->width(), image->height()),
+                              "six squares of one size, all with 8 bits or all float");
+    }
+    texture.image = images.front();
+    if (texture.isCube()) texture.faces = std::move(images);
+  }
+  wanted_.clear();
 }
 
 std::uint32_t JsonPictures::read(const JsonValue& from, std::uint32_t texture) {
@@ -101,6 +114,7 @@ std::uint32_t JsonPictures::read(const JsonValue& from, std::uint32_t texture) {
 
 // Other materials may share the texture, so the wrap is that of a copy, which shares the picture.
 std::uint32_t JsonPictures::wrapped(std::uint32_t texture, Wrap wrap) {
+  if (!load_.textures[texture].image) load();
   Texture copy = load_.textures[texture];
   copy.wrapS = copy.wrapT = wrap;
   const auto same = [&](const Texture& other) {

@@ -60,32 +60,41 @@ void TextureStore::refuseBeyond(std::uint64_t maxBytes) {
   }
 }
 
-std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::string>& warnings,
-                                                             std::uint64_t maxBytes) {
+std::vector<TextureStore::Loaded> TextureStore::loadAll(std::uint64_t maxBytes) {
   refuseBeyond(maxBytes);
-  std::vector<std::shared_ptr<const Image>> images(requests_.size());
-  std::vector<std::string> reasons(requests_.size());
+  std::vector<Loaded> all(requests_.size());
   parallelFor(requests_.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Request& request = requests_[i];
-      reasons[i] = request.missing;
-      if (!reasons[i].empty()) continue;
-      auto image = request.path.empty() ? decodeImage(request.bytes, request.name, kTextureLimits)
-                                        : readImage(request.path, kTextureLimits);
-      if (image)
-        images[i] = std::make_shared<const Image>(std::move(image).value());
-      else
-        reasons[i] = image.error().message;
+      Loaded& loaded = all[i];
+      loaded.problem = request.missing;
+      if (loaded.problem.empty()) {
+        auto image = request.path.empty() ? decodeImage(request.bytes, request.name, kTextureLimits)
+                                          : readImage(request.path, kTextureLimits);
+        if (image)
+          loaded.image = std::make_shared<const Image>(std::move(image).value());
+        else
+          loaded.problem = image.error().message;
+      }
+      if (!loaded.image) loaded.image = checkerboard();
     }
   });
-  for (std::size_t i = 0; i < images.size(); ++i) {
-    if (images[i]) continue;
-    images[i] = checkerboard();
-    warnings.push_back("texture " + requests_[i].name +
-                       " is replaced by a checkerboard: " + reasons[i]);
-  }
   requests_.clear();
   tickets_.clear();
+  return all;
+}
+
+std::vector<std::shared_ptr<const Image>> TextureStore::load(std::vector<std::string>& warnings,
+                                                             std::uint64_t maxBytes) {
+  std::vector<std::string> names;
+  for (const Request& request : requests_) names.push_back(request.name);
+  std::vector<std::shared_ptr<const Image>> images;
+  for (Loaded& loaded : loadAll(maxBytes)) {
+    if (!loaded.problem.empty())
+      warnings.push_back("texture " + names[images.size()] +
+                         " is replaced by a checkerboard: " + loaded.problem);
+    images.push_back(std::move(loaded.image));
+  }
   return images;
 }
 

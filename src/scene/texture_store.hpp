@@ -13,6 +13,9 @@
 
 namespace lucerna::scene {
 
+// Of all pictures of a scene together, once decoded.
+inline constexpr std::uint64_t kMaxTextureBytes = 4ull << 30;
+
 class TextureStore {
  public:
   // Each returns a ticket: an index into what load() returns. The same file gives the same ticket.
@@ -21,11 +24,16 @@ class TextureStore {
   std::size_t addBytes(std::string name, std::span<const std::byte> encoded);
   std::size_t addMissing(std::string name, std::string reason);  // gives the stand-in
 
-  // One image a ticket, never null. An image that cannot be read gives one sentence in `warnings`
-  // (in order of the tickets) and the checkerboard instead; so does one that would bring them all
-  // above `maxBytes` once decoded. Empties the store.
+  struct Loaded {
+    std::shared_ptr<const Image> image;  // never null: the checkerboard where there is a problem
+    std::string problem;                 // why it cannot be had; empty: it is what was asked for
+  };
+  // One a ticket. Refused are also images that would bring them all above `maxBytes` once decoded.
+  // Empties the store.
+  std::vector<Loaded> loadAll(std::uint64_t maxBytes = kMaxTextureBytes);
+  // The images alone; each problem is a sentence in `warnings`, in order of the tickets.
   std::vector<std::shared_ptr<const Image>> load(std::vector<std::string>& warnings,
-                                                 std::uint64_t maxBytes = 4ull << 30);
+                                                 std::uint64_t maxBytes = kMaxTextureBytes);
 
  private:
   void refuseBeyond(std::uint64_t maxBytes);
