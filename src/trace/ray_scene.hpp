@@ -1,0 +1,55 @@
+// Rays against a scene, by Embree: whole streams of them, since packets of sixteen neighbours cost
+// a third of single rays. Every mesh is built once, however many objects show it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+
+#include "scene/scene.hpp"
+#include "trace/material_lookup.hpp"
+
+namespace lucerna::trace {
+
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+// Points origin + t * direction with near <= t <= far; the direction may have any length.
+struct Ray {
+  vec3 originW{0.f};
+  float near = 0.f;
+  vec3 directionW{0.f, 0.f, -1.f};
+  float far = kInfinity;
+};
+
+struct Hit {
+  float t = kInfinity;  // infinity: nothing was hit, and the spot is nowhere
+  Spot spot;
+  bool any() const { return t < kInfinity; }
+};
+
+class RayScene {
+ public:
+  // The scene outlives it and stays as it is. viewFromWorld: of the eye that generated texture
+  // coordinates follow.
+  RayScene(const scene::Scene& scene, const mat4& viewFromWorld);
+  ~RayScene();
+  RayScene(const RayScene&) = delete;
+  RayScene& operator=(const RayScene&) = delete;
+
+  // The nearest surfaces, both sides of them, holes of alpha-tested materials left out. Rays that
+  // are neighbours in the list should be neighbours in the scene.
+  void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
+
+  // What each ray lets through, per colour: 1 where nothing is in the way, 0 behind an opaque
+  // surface, else the product of the transmittances (scene/material.hpp) of what it crosses.
+  void transmittance(std::span<const Ray> rays, std::span<vec3> shares) const;
+
+  const MaterialLookup& lookup() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace lucerna::trace

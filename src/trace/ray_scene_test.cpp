@@ -1,0 +1,138 @@
+#include "trace/ray_scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/random.hpp"
+#include "trace/trace_scenes.hpp"
+
+namespace lucerna::trace {
+namespace {
+
+using testing::addMaterial;
+using testing::addSquare;
+
+std::vector<Hit> closest(const RayScene& scene, const std::vector<Ray>& rays) {
+  std::vector<Hit> hits(rays.size());
+  scene.closest(rays, hits);
+  return hits;
+}
+std::vector<vec3> transmittance(const RayScene& scene, const std::vector<Ray>& rays) {
+  std::vector<vec3> shares(rays.size());
+  scene.transmittance(rays, shares);
+  return shares;
+}
+
+TEST(RayScene, FindsTheNearestWithinItsBounds) {
+  scene::Scene scene = testing::emptyScene();
+  addMaterial(scene);
+  for (const float z : {-4.f, -2.f, -3.f}) addSquare(scene, {0, 0, z}, {1, 0, 0}, {0, 1, 0});
+  const RayScene rays(scene, mat4(1.f));
+  const auto hits = closest(
+      rays, {{.near = 0.f}, {.near = 2.5f}, {.near = 2.5f, .far = 2.9f}, {.originW = {2, 0, 0}}});
+  EXPECT_EQ(hits[0].spot.object, 1u);
+  EXPECT_EQ(hits[0].t, 2.f);
+  EXPECT_EQ(hits[1].spot.object, 2u);
+  EXPECT_FALSE(hits[2].any());
+  EXPECT_FALSE(hits[3].any());
+}
+
+// Packets and their rests give every ray its own answer.
+TEST(RayScene, ManyRaysAreAsManySingleOnes) {
+  scene::Scene scene = testing::emptyScene();
+  addMaterial(scene);
+  Random random(5);
+  const auto place = [&] {
+    return vec3(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-9, -1));
+  };
+  for (int i = 0; i < 40; ++i)
+    addSquare(scene, place(), {0.5f, 0.1f, 0}, {0, 0.3f, random.uniform(-1, 1)});
+  const RayScene rays(scene, mat4(1.f));
+  std::vector<Ray> all;
+  for (int i = 0; i < 1003; ++i) all.push_back({.directionW = place()});
+  const auto hits = closest(rays, all);
+  const auto shares = transmittance(rays, all);
+  int count = 0;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Hit alone = closest(rays, {all[i]})[0];
+    EXPECT_EQ(hits[i].spot.object, alone.spot.object) << i;
+    EXPECT_EQ(hits[i].t, alone.t) << i;
+    EXPECT_EQ(shares[i], vec3(alone.any() ? 0.f : 1.f)) << i;
+    count += alone.any();
+  }
+  EXPECT_GT(count, 100);
+  EXPECT_LT(count, 900);
+}
+
+TEST(RayScene, InstancesStandWhereTheirNodesAre) {
+  scene::Scene scene = testing::emptyScene();
+  addMaterial(scene);
+  addSquare(scene, vec3(0), {1, 0, 0}, {0, 1, 0});
+  scene::Object again = scene.objects[0];
+  again.node =
+      addNode(scene, "again", glm::scale(glm::translate(mat4(1.f), vec3(5, 0, -2)), vec3(-3)));
+  scene.objects.push_back(again);
+  updateTransforms(scene);
+  const RayScene rays(scene, mat4(1.f));
+  const Hit hit = closest(rays, {{.originW = {7.5f, 0, 0}}})[0];
+  EXPECT_EQ(hit.spot.object, 1u);
+  EXPECT_EQ(hit.t, 2.f);
+  // Scaled by -3 the front turns from +z to -z.
+  EXPECT_TRUE(rays.lookup().frontFacing(hit.spot, vec3(0, 0, 1)));
+  const SurfacePoint point = rays.lookup().at(hit.spot, {0, 0, -1});
+  EXPECT_NEAR(point.positionW.x, 7.5f, 1e-5f);
+  EXPECT_EQ(point.normalW, vec3(0, 0, 1)) << "the side that is seen";
+}
+
+// Left half opaque, right half a hole.
+scene::Texture halfHole() {
+  auto image = std::make_shared<Image>(2, 1, 4, ComponentType::U8);
+  std::ranges::fill(image->as<std::uint8_t>(), std::uint8_t{255});
+  image->pixel<std::uint8_t>(1, 0)[3] = 0;
+  scene::Texture texture;
+  texture.image = image;
+  texture.nearest = true;
+  texture.wrapS = texture.wrapT = scene::Wrap::ClampToEdge;
+  return texture;
+}
+
+TEST(RayScene, HolesOfAlphaTestLetThrough) {
+  scene::Scene scene = testing::emptyScene();
+  scene.textures.push_back(halfHole());
+  scene::Material& material = addMaterial(scene);
+  material.alphaMode = scene::AlphaMode::Mask;
+  material.albedoTexture.texture = 0;
+  addSquare(scene, {0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+  const RayScene rays(scene, mat4(1.f));
+  const std::vector<Ray> both{{.originW = {-0.5f, 0, 0}}, {.originW = {0.5f, 0, 0}}};
+  EXPECT_TRUE(closest(rays, both)[0].any());
+  EXPECT_FALSE(closest(rays, both)[1].any());
+  EXPECT_EQ(transmittance(rays, both)[0], vec3(0.f));
+  EXPECT_EQ(transmittance(rays, both)[1], vec3(1.f));
+}
+
+// The product of what panes let through, whatever their order; nothing behind a wall.
+TEST(RayScene, PanesMultiply) {
+  scene::Scene scene = testing::emptyScene();
+  vec3 product(1.f);
+  for (int i = 0; i < 5; ++i) {
+    scene::Material& pane = addMaterial(scene);
+    pane.alphaMode = scene::AlphaMode::Blend;
+    pane.albedo.w = 0.1f * static_cast<float>(i + 1);
+    pane.transmission = {1.f, 0.8f, 0.5f};
+    product *= scene::transmittance(pane.albedo.w, pane.transmission);
+    addSquare(scene, {0, 0, -1.f - static_cast<float>((i * 2) % 5)}, {1, 0, 0}, {0, 1, 0});
+  }
+  addMaterial(scene);
+  addSquare(scene, {0, 0, -9}, {1, 0, 0}, {0, 1, 0});
+  const RayScene rays(scene, mat4(1.f));
+  // Off the diagonal, where both triangles of a square would be met.
+  const auto shares = transmittance(rays, {{.originW = {0.3f, 0, 0}, .far = 8.f},
+                                           {.originW = {0.3f, 0, 0}},
+                                           {.originW = {0.3f, 0, 0}, .far = 0.5f}});
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(shares[0][c], product[c], 1e-6f);
+  EXPECT_EQ(shares[1], vec3(0.f));
+  EXPECT_EQ(shares[2], vec3(1.f));
+}
+
+}  // namespace
+}  // namespace lucerna::trace
