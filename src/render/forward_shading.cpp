@@ -2,7 +2,8 @@
 
 namespace lucerna::render {
 
-ForwardShading::ForwardShading(gpu::Device& device, std::map<std::string, std::string> defines)
+ForwardShading::ForwardShading(gpu::Device& device,
+                               const std::map<std::string, std::string>& defines)
     : programs_(device, "render/forward.frag", defines), customPrograms_(device, defines) {}
 
 void ForwardShading::draw(gpu::Rendering& rendering, const Inputs& inputs, const DrawList& list,

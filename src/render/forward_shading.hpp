@@ -16,7 +16,8 @@ namespace lucerna::render {
 class ForwardShading {
  public:
   // defines: of render/forward.frag.
-  explicit ForwardShading(gpu::Device& device, std::map<std::string, std::string> defines = {});
+  explicit ForwardShading(gpu::Device& device,
+                          const std::map<std::string, std::string>& defines = {});
 
   struct Inputs {
     const GpuScene& scene;

@@ -183,10 +183,9 @@ TEST(GBuffer, AlphaTestCutsHoles) {
 scene::Scene nineCubes() {
   scene::Scene scene = testing::emptyScene();
   scene.materials.emplace_back();
-  for (int i = 0; i < 9; ++i) {
-    const vec3 place(3.f * static_cast<float>(i % 3 - 1), 3.f * static_cast<float>(i / 3 - 1), -10);
-    testing::addObject(scene, 0, 0, glm::translate(mat4(1.f), place));
-  }
+  for (const float y : {-3.f, 0.f, 3.f})
+    for (const float x : {-3.f, 0.f, 3.f})
+      testing::addObject(scene, 0, 0, glm::translate(mat4(1.f), vec3(x, y, -10)));
   updateTransforms(scene);
   return scene;
 }

@@ -82,10 +82,10 @@ vec3 surroundings(vec3 d) {
 // The mean over two texels each way: magnified, the tiles' edges show no steps.
 vec3 smoothSurroundings(int face, vec2 p) {
   vec3 sum(0.f);
-  for (int i = 0; i < 9; ++i) {
-    const vec2 offset(static_cast<float>(i % 3 - 1), static_cast<float>(i / 3 - 1));
-    sum += surroundings(faceDirection(face, p + 0.667f / kSurroundingsSize * offset));
-  }
+  constexpr float kStep = 0.667f / kSurroundingsSize;
+  for (const float y : {-kStep, 0.f, kStep})
+    for (const float x : {-kStep, 0.f, kStep})
+      sum += surroundings(faceDirection(face, p + vec2(x, y)));
   return sum / 9.f;
 }
 
