@@ -44,6 +44,14 @@ class GltfFile : public testing::Test {
     root_["accessors"].push_back(made);
     return static_cast<int>(root_["accessors"].size()) - 1;
   }
+  // An accessor without data of its own.
+  int described(int componentType, const char* type, int count, bool normalized = false) {
+    root_["accessors"].push_back({{"componentType", componentType},
+                                  {"type", type},
+                                  {"count", count},
+                                  {"normalized", normalized}});
+    return static_cast<int>(root_["accessors"].size()) - 1;
+  }
   int floats(const std::vector<float>& values, const char* type, int components) {
     return accessor(values, 5126, type, components);
   }
