@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/file.hpp"
+#include "core/test_folder.hpp"
 
 namespace lucerna::app {
 namespace {
@@ -78,7 +79,8 @@ TEST(CameraPath, FaultsNameTheKeyframe) {
 }
 
 TEST(Camera, FarMustLieBehindNear) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "depth.json";
+  const TestFolder folder;
+  const std::filesystem::path file = folder / "depth.json";
   const auto faultOf = [&](const std::string& depth) {
     EXPECT_TRUE(writeText(file, R"({"position": [0, 0, 1], "target": [0, 0, 0],)"
                                 "\n" +

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "core/test_folder.hpp"
 #include "gpu/gl_test_fixture.hpp"
 
 namespace lucerna::gpu {
@@ -235,8 +236,8 @@ TEST_F(ProgramGlTest, MediumPrecisionAndDefinesAreAccepted) {
 }
 
 TEST_F(ProgramGlTest, ReloadKeepsTheLastGoodProgram) {
-  const fs::path root = fs::path(testing::TempDir()) / "lucerna_reload";
-  fs::remove_all(root);
+  const TestFolder folder;
+  const fs::path root = folder.path();
   fs::create_directories(root / "test");
   int writes = 0;
   const auto write = [&](const char* name, const std::string& text) {
@@ -288,7 +289,6 @@ TEST_F(ProgramGlTest, ReloadKeepsTheLastGoodProgram) {
   EXPECT_EQ(reload().value(), 1);
   EXPECT_EQ(drawn(), 3.f);
   EXPECT_EQ(device().objectCounts().programs, 2);
-  fs::remove_all(root);
 }
 
 }  // namespace

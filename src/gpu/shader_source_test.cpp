@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/file.hpp"
+#include "core/test_folder.hpp"
 
 namespace lucerna::gpu {
 
@@ -78,18 +79,15 @@ TEST(ShaderSources, EmbeddingKeepsEveryByte) {
 
 class ShaderRoot : public testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(root_);
-    fs::create_directories(root_ / "a");
-  }
-  void TearDown() override { fs::remove_all(root_); }
+  void SetUp() override { fs::create_directories(root_ / "a"); }
   void write(const fs::path& name, const std::string& text) {
     std::ofstream(root_ / name) << text;
     // Two writes within a tick of the file system's clock would look like one.
     fs::last_write_time(root_ / name,
                         fs::file_time_type::clock::now() + std::chrono::seconds(++writes_));
   }
-  fs::path root_ = fs::path(testing::TempDir()) / "lucerna_shader_root";
+  TestFolder own_;
+  fs::path root_ = own_.path();
   int writes_ = 0;
 };
 
