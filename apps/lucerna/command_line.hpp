@@ -33,6 +33,7 @@ CLI::App* addCommand(CommandLine& line, CLI::App& parent, const std::string& nam
 
 // One file each.
 void addRender(CommandLine& line);
+void addReference(CommandLine& line);
 void addCompare(CommandLine& line);
 void addInfo(CommandLine& line);
 void addDoctor(CommandLine& line);

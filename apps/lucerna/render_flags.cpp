@@ -26,36 +26,19 @@ void addPluginFlag(CLI::App& command, std::vector<std::string>& plugins) {
   addRepeatable(command, "--plugin", plugins, "FILE.so: passes from a shared library; repeatable");
 }
 
-void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
-  command.add_option("--pipeline", settings.pipeline,
-                     "shipped NAME, FILE.js or FILE.json (deferred)");
-  addRepeatable(command, "--set", settings.sets,
-                "Pass.param=value, Pass.enabled=false or script.name=value; repeatable");
-  addPluginFlag(command, settings.plugins);
+void addSceneFlags(CLI::App& command, app::RenderSettings& settings) {
   command.add_option_function<std::string>(
       "--size",
       [&](const std::string& text) {
         settings.size = orUsageError("--size", app::sizeFromText(text));
       },
       "WIDTHxHEIGHT of the output in pixels (1280x720)");
-  command.add_option("--scale", settings.scale, "rendering size in percent of the output's (100)")
-      ->check(wholeNumber(25, 400));
-  CLI::Option* camera = command.add_option("--camera", settings.camera,
-                                           "NAME, INDEX or FILE.json (the scene's first)");
-  command
-      .add_option("--camera-path", settings.cameraPath,
-                  "FILE.json of keyframes that the camera follows")
-      ->excludes(camera);
+  command.add_option("--camera", settings.camera, "NAME, INDEX or FILE.json (the scene's first)");
   command.add_option("--animation", settings.animation,
                      "NAME or INDEX of the one that plays, or none (of each file the first)");
-  command.add_option("--frames", settings.frames, "how many frames (1)")
-      ->check(wholeNumber(1, 10'000'000));
   command.add_option("--time", settings.time, "seconds into the scene's animation (0)")
       ->check(between(-1e6, 1e6, "s"));
-  command.add_option("--time-step", settings.timeStep, "seconds from frame to frame (1/30)")
-      ->check(between(0, 1e6, "s"));
-  command
-      .add_option("--seed", settings.seed, "seed of everything random in passes and scripts (0)")
+  command.add_option("--seed", settings.seed, "seed of everything random (0)")
       ->check(wholeNumber(0, std::numeric_limits<std::uint64_t>::max()));
   command.add_option("--threads", settings.threads, "CPU threads; 0: one a core (0)")
       ->check(wholeNumber(0, 1024));
@@ -64,6 +47,25 @@ void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
           "--exposure", [&](float value) { settings.exposure = value; },
           "EV instead of the scene's; one more doubles the brightness")
       ->check(between(-64, 64, "EV"));
+}
+
+void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
+  command.add_option("--pipeline", settings.pipeline,
+                     "shipped NAME, FILE.js or FILE.json (deferred)");
+  addRepeatable(command, "--set", settings.sets,
+                "Pass.param=value, Pass.enabled=false or script.name=value; repeatable");
+  addPluginFlag(command, settings.plugins);
+  addSceneFlags(command, settings);
+  command.add_option("--scale", settings.scale, "rendering size in percent of the output's (100)")
+      ->check(wholeNumber(25, 400));
+  command
+      .add_option("--camera-path", settings.cameraPath,
+                  "FILE.json of keyframes that the camera follows")
+      ->excludes("--camera");
+  command.add_option("--frames", settings.frames, "how many frames (1)")
+      ->check(wholeNumber(1, 10'000'000));
+  command.add_option("--time-step", settings.timeStep, "seconds from frame to frame (1/30)")
+      ->check(between(0, 1e6, "s"));
   command.add_option("--profile", settings.profile,
                      "FILE.csv, .json, .md or .html: times and counts of every pass");
   command.add_option("--shaders", settings.shaderFolder,

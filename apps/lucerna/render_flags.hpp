@@ -6,7 +6,10 @@
 
 namespace lucerna::cli {
 
-// settings must outlive the parse.
+// Scene, camera, size, time, seed, threads: what drawing and tracing share. settings must outlive
+// the parse, here and below.
+void addSceneFlags(CLI::App& command, app::RenderSettings& settings);
+// These, and what drawing alone takes.
 void addRenderFlags(CLI::App& command, app::RenderSettings& settings);
 
 // --plugin

@@ -2,9 +2,9 @@
 
 #include <future>
 
+#include "app/prepare_scene.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
-#include "core/text.hpp"
 #include "graph/plugin.hpp"
 #include "passes/register_passes.hpp"
 #include "scene/load.hpp"
@@ -27,41 +27,17 @@ Status openDevice(Session& session) {
   return {};
 }
 
-Status takeAnimation(Session& session) {
-  scene::Scene& scene = session.scene;
-  const std::string& choice = session.settings.animation;
-  if (!choice.empty()) {
-    const Status chosen = chooseAnimation(scene, choice);
-    return chosen ? Status() : error(ErrorKind::Usage, "--animation: {}", chosen.error().message);
-  }
-  std::vector<std::string> others;
-  for (const scene::Animation& animation : scene.animations)
-    if (!animation.playing) others.push_back("'" + animation.name + "'");
-  if (!others.empty())
-    log::info("{} has more animations than play; --animation chooses one: {}", scene.name,
-              join(others));
-  return {};
-}
-
-Status takeScene(Session& session, Result<scene::Scene> scene) {
-  if (!scene) return scene.error();
-  session.scene = std::move(scene).value();
-  for (const std::string& warning : session.scene.warnings)
-    log::warning("{}: {}", session.scene.name, warning);
-  LUCERNA_TRY_VOID(takeAnimation(session));
-  if (session.settings.exposure) session.scene.exposure = *session.settings.exposure;
-  LUCERNA_TRY(camera, chooseCamera(session.scene, session.settings.camera));
+Status takeScene(Session& session, Result<scene::Scene> loaded) {
+  if (!loaded) return loaded.error();
+  session.scene = std::move(loaded).value();
+  LUCERNA_TRY(camera, prepareScene(session.scene, session.settings,
+                                   session.cameraPath ? &*session.cameraPath : nullptr));
   session.camera = camera;
-  if (session.cameraPath)
-    session.camera = addCamera(session.scene, session.settings.cameraPath,
-                               session.cameraPath->at(session.settings.time));
-  scene::Scene& s = session.scene;
-  if (session.settings.stereo.eyes() > 1 && s.cameras[session.camera].orthographic)
+  if (session.settings.stereo.eyes() > 1 && session.scene.cameras[camera].orthographic)
     return error(ErrorKind::Usage,
                  "--stereo: the camera '{}' is orthographic and has no place for two eyes; take "
                  "another by --camera",
-                 s.cameras[session.camera].name);
-  if (s.headlight != scene::kNone) s.lights[s.headlight].node = s.cameras[session.camera].node;
+                 session.scene.cameras[camera].name);
   return {};
 }
 

@@ -32,30 +32,48 @@ struct Context {
 
   RTCIntersectContext embree;  // first: Embree hands out its address
   const MaterialLookup& lookup;
-  vec3* shares = nullptr;  // of transmittance(), one a lane
+  // Of the packet under way, one a lane.
+  vec3* shares = nullptr;
+  const Passed* passed = nullptr;
 };
 
-bool lets(const Context& context, RTCHitN* hit, unsigned count, unsigned lane, vec3& share) {
-  const Spot spot{.object = RTCHitN_instID(hit, count, lane, 0),
-                  .triangle = RTCHitN_primID(hit, count, lane),
-                  .barycentric = {RTCHitN_u(hit, count, lane), RTCHitN_v(hit, count, lane)}};
-  const scene::Material& material = context.lookup.materialOf(spot.object);
-  if (material.alphaMode == scene::AlphaMode::Opaque) return false;
-  const float alpha = context.lookup.opacity(spot);
-  if (material.alphaMode == scene::AlphaMode::Mask) return alpha < material.alphaCutoff;
-  share *= scene::transmittance(alpha, material.transmission);
-  return share != vec3(0.f);
+Spot spotOf(RTCHitN* hit, unsigned count, unsigned lane) {
+  return {.object = RTCHitN_instID(hit, count, lane, 0),
+          .triangle = RTCHitN_primID(hit, count, lane),
+          .barycentric = {RTCHitN_u(hit, count, lane), RTCHitN_v(hit, count, lane)}};
+}
+
+bool isHole(const MaterialLookup& lookup, const Spot& spot) {
+  const scene::Material& material = lookup.materialOf(spot.object);
+  return material.alphaMode == scene::AlphaMode::Mask &&
+         lookup.opacity(spot) < material.alphaCutoff;
+}
+
+// What goes through towards the light.
+vec3 shareThrough(const MaterialLookup& lookup, const Spot& spot, vec3 toLightW) {
+  const scene::Material& material = lookup.materialOf(spot.object);
+  if (material.alphaMode != scene::AlphaMode::Blend) return vec3(isHole(lookup, spot) ? 1.f : 0.f);
+  if (!material.doubleSided && !lookup.frontFacing(spot, -toLightW)) return vec3(1.f);
+  return scene::transmittance(lookup.opacity(spot), material.transmission);
 }
 
 // Of the nearest surfaces holes are none; translucent ones are.
 void closestFilter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);
+  for (unsigned lane = 0; lane < args->N; ++lane)
+    if (args->valid[lane] == -1 && isHole(context.lookup, spotOf(args->hit, args->N, lane)))
+      args->valid[lane] = 0;
+}
+
+// Of all geometry, for rays that have passed something.
+void passedFilter(const RTCFilterFunctionNArguments* args) {
+  const Context& context = *reinterpret_cast<const Context*>(args->context);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] != -1) continue;
-    const std::uint32_t object = RTCHitN_instID(args->hit, args->N, lane, 0);
-    if (context.lookup.materialOf(object).alphaMode != scene::AlphaMode::Mask) continue;
-    vec3 ignored(1.f);
-    if (lets(context, args->hit, args->N, lane, ignored)) args->valid[lane] = 0;
+    const Passed& passed = context.passed[RTCRayN_id(args->ray, args->N, lane)];
+    if (passed.has(RTCHitN_instID(args->hit, args->N, lane, 0),
+                   RTCHitN_primID(args->hit, args->N, lane)))
+      args->valid[lane] = 0;
   }
 }
 
@@ -63,8 +81,12 @@ void transmittanceFilter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] != -1) continue;
+    const vec3 toLightW(RTCRayN_dir_x(args->ray, args->N, lane),
+                        RTCRayN_dir_y(args->ray, args->N, lane),
+                        RTCRayN_dir_z(args->ray, args->N, lane));
     vec3& share = context.shares[RTCRayN_id(args->ray, args->N, lane)];
-    if (lets(context, args->hit, args->N, lane, share)) args->valid[lane] = 0;
+    share *= shareThrough(context.lookup, spotOf(args->hit, args->N, lane), toLightW);
+    if (share != vec3(0.f)) args->valid[lane] = 0;
   }
 }
 
@@ -120,7 +142,7 @@ struct RayScene::Impl {
   RTCScene newScene() const {
     RTCScene made = rtcNewScene(device);
     // Robust: no ray slips through where triangles meet.
-    rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(made, RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     return made;
   }
 
@@ -161,6 +183,23 @@ struct RayScene::Impl {
   std::vector<RTCScene> meshes;  // null where no object shows it
 };
 
+float Passed::pass(const Hit& hit) {
+  constexpr float kRounding = 0x1p-20f;
+  if (hit.t > t_ * (1.f + kRounding) || count_ == triangles_.size()) {
+    const bool full = hit.t <= t_ * (1.f + kRounding);
+    count_ = 0;
+    t_ = hit.t;
+    if (full) return hit.t * (1.f + kRounding);
+  }
+  triangles_[count_++] = {hit.spot.object, hit.spot.triangle};
+  return hit.t * (1.f - kRounding);
+}
+
+bool Passed::has(std::uint32_t object, std::uint32_t triangle) const {
+  return std::any_of(triangles_.begin(), triangles_.begin() + static_cast<std::ptrdiff_t>(count_),
+                     [&](const Triangle& t) { return t.object == object && t.index == triangle; });
+}
+
 RayScene::RayScene(const scene::Scene& scene, const mat4& viewFromWorld)
     : impl_(std::make_unique<Impl>(scene, viewFromWorld)) {}
 
@@ -170,14 +209,17 @@ const MaterialLookup& RayScene::lookup() const {
   return impl_->lookup;
 }
 
-void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits) const {
-  CHECK(rays.size() == hits.size());
+void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits,
+                       std::span<const Passed> passed) const {
+  CHECK(rays.size() == hits.size() && (passed.empty() || passed.size() == rays.size()));
   Context context(impl_->lookup);
+  if (!passed.empty()) context.embree.filter = passedFilter;
   alignas(64) RTCRayHit16 packet;
   alignas(64) std::array<int, kPacket> valid;
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     setRays(packet.ray, rays.subspan(first, count), valid);
+    if (!passed.empty()) context.passed = &passed[first];
     std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect16(valid.data(), impl_->top, &context.embree, &packet);

@@ -2,6 +2,7 @@
 // a third of single rays. Every mesh is built once, however many objects show it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -28,6 +29,23 @@ struct Hit {
   bool any() const { return t < kInfinity; }
 };
 
+// Surfaces that a ray has met and goes on through, so that others in the same place are met too.
+class Passed {
+ public:
+  // The ray's new near, from which the hit is not met again.
+  float pass(const Hit& hit);
+  bool has(std::uint32_t object, std::uint32_t triangle) const;
+  bool any() const { return count_ > 0; }
+
+ private:
+  struct Triangle {
+    std::uint32_t object = scene::kNone, index = 0;
+  };
+  std::array<Triangle, 4> triangles_;
+  std::size_t count_ = 0;
+  float t_ = -1.f;  // of all of them
+};
+
 class RayScene {
  public:
   // The scene outlives it and stays as it is. viewFromWorld: of the eye that generated texture
@@ -39,10 +57,13 @@ class RayScene {
 
   // The nearest surfaces, both sides of them, holes of alpha-tested materials left out. Rays that
   // are neighbours in the list should be neighbours in the scene.
-  void closest(std::span<const Ray> rays, std::span<Hit> hits) const;
+  // passed: empty, or for each ray what it is not to meet.
+  void closest(std::span<const Ray> rays, std::span<Hit> hits,
+               std::span<const Passed> passed = {}) const;
 
   // What each ray lets through, per colour: 1 where nothing is in the way, 0 behind an opaque
-  // surface, else the product of the transmittances (scene/material.hpp) of what it crosses.
+  // surface, else the product of the transmittances (scene/material.hpp) of what it crosses. The
+  // rays lead to a light; one-sided translucent surfaces count where their front faces it.
   void transmittance(std::span<const Ray> rays, std::span<vec3> shares) const;
 
   const MaterialLookup& lookup() const;

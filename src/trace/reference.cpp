@@ -46,27 +46,31 @@ std::vector<ivec2> pixelsOfTile(ivec2 first, ivec2 end) {
   return pixels;
 }
 
+std::vector<ivec2> tilesOf(ivec2 size) {
+  std::vector<ivec2> corners;
+  for (int y = 0; y < size.y; y += kTileSide)
+    for (int x = 0; x < size.x; x += kTileSide) corners.emplace_back(x, y);
+  return corners;
+}
+
 class Film {
  public:
-  Film(const TracedScene& traced)
+  explicit Film(const TracedScene& traced)
       : traced_(traced),
         size_(traced.settings.size),
         white_(std::exp2(-traced.scene.exposure)),
-        pixels_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y)) {
+        pixels_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y)),
+        tiles_(tilesOf(size_)),
+        progress_("tracing", tiles_.size() * static_cast<std::uint64_t>(traced.settings.samples)) {
     if (traced.settings.visibility) visibility_.resize(pixels_.size() * traced.lights.size());
-    for (int y = 0; y < size_.y; y += kTileSide)
-      for (int x = 0; x < size_.x; x += kTileSide) tiles_.emplace_back(x, y);
   }
 
   // Samples [begin, end) of the pixels that are not exact enough. False if the user ended it.
   bool round(int begin, int end) {
-    const int progressSteps = static_cast<int>(tiles_.size());
-    Progress progress(fmt::format("sample {} to {} of a pixel", begin + 1, end),
-                      static_cast<std::uint64_t>(progressSteps));
     parallelFor(tiles_.size(), 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t i = first; i < last; ++i) {
         if (!Progress::cancelled()) traceTile(tiles_[i], begin, end);
-        progress.advance();
+        progress_.advance(static_cast<std::uint64_t>(end - begin));
       }
     });
     return !Progress::cancelled();
@@ -101,7 +105,8 @@ class Film {
   float white_;
   std::vector<PixelSum> pixels_;
   std::vector<float> visibility_;  // sums; pixel by pixel, light by light
-  std::vector<ivec2> tiles_;
+  std::vector<ivec2> tiles_;       // their corners
+  Progress progress_;
 };
 
 void Film::traceTile(ivec2 corner, int begin, int end) {

@@ -166,6 +166,22 @@ TEST(Reference, BackFacesAreLookedThroughAndShadow) {
   EXPECT_NEAR(centre(renderReference(scene, settings).color).x, 1.f / kPi, 1e-6f);
 }
 
+// An inside and an outside in one place, each seen from its own side alone.
+TEST(Reference, SurfacesInOnePlaceAreAllMet) {
+  scene::Scene scene = emptyScene();
+  scene.background.color = vec3(1.f);
+  scene::Material& glass = addMaterial(scene);
+  glass.doubleSided = false;
+  glass.alphaMode = scene::AlphaMode::Blend;
+  glass.albedo = vec4(0, 0, 0, 0.5f);
+  for (const bool turned : {true, false, true, false})
+    addSquare(scene, {0, 0, -3}, turned ? vec3(0, 9, 0) : vec3(9, 0, 0),
+              turned ? vec3(9, 0, 0) : vec3(0, 9, 0));
+  // Not through the diagonals, where two triangles of a square meet.
+  const auto picture = renderReference(scene, settingsOf(scene, {6, 4}, 4));
+  EXPECT_EQ(colorAt(picture.color, 4, 1), vec3(0.25f)) << "two of the four face the eye";
+}
+
 TEST(Reference, MirrorsShowTheOtherSide) {
   scene::Scene scene = emptyScene();
   scene::Material& mirror = addMaterial(scene);

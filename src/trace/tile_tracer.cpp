@@ -41,14 +41,17 @@ void TileTracer::trace(std::span<const ivec2> pixels, std::uint32_t index,
   generate();
   while (!paths_.empty()) {
     hits_.resize(rays_.size());
-    traced_.rays.closest(rays_, hits_);
+    const bool allFresh = std::ranges::none_of(passed_, &Passed::any);
+    traced_.rays.closest(rays_, hits_, allFresh ? std::span<const Passed>() : passed_);
     lit_.clear();
     nextPaths_.clear();
     nextRays_.clear();
-    for (std::size_t i = 0; i < paths_.size(); ++i) meet(paths_[i], rays_[i], hits_[i]);
+    nextPassed_.clear();
+    for (std::size_t i = 0; i < paths_.size(); ++i) meet(paths_[i], rays_[i], passed_[i], hits_[i]);
     light();
     std::swap(paths_, nextPaths_);
     std::swap(rays_, nextRays_);
+    std::swap(passed_, nextPassed_);
   }
 }
 
@@ -92,6 +95,7 @@ void TileTracer::generate() {
                      .directionW = mat3(worldFromView) * directionV,
                      .far = s.view.far});
   }
+  passed_.assign(paths_.size(), {});
 }
 
 void TileTracer::add(const Path& path, vec3 radiance, bool direct) {
@@ -124,9 +128,10 @@ void TileTracer::continueFrom(const SurfacePoint& point, Path path, vec3 directi
   ++path.depth;
   nextPaths_.push_back(path);
   nextRays_.push_back({.originW = originOf(point, directionW), .directionW = directionW});
+  nextPassed_.emplace_back();
 }
 
-void TileTracer::meet(const Path& path, const Ray& ray, const Hit& hit) {
+void TileTracer::meet(const Path& path, const Ray& ray, const Passed& passed, const Hit& hit) {
   if (!hit.any()) return missed(path, ray.directionW);
   const MaterialLookup& lookup = traced_.rays.lookup();
   const scene::Material& material = lookup.materialOf(hit.spot.object);
@@ -137,7 +142,8 @@ void TileTracer::meet(const Path& path, const Ray& ray, const Hit& hit) {
     ++behind.depth;
     nextPaths_.push_back(behind);
     nextRays_.push_back(ray);
-    nextRays_.back().near = std::nextafter(hit.t * (1.f + 0x1p-20f), kInfinity);
+    nextPassed_.push_back(passed);
+    nextRays_.back().near = nextPassed_.back().pass(hit);
   };
   if (!material.doubleSided && !lookup.frontFacing(hit.spot, ray.directionW))
     return goOn(vec3(1.f));

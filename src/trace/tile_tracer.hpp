@@ -55,7 +55,7 @@ class TileTracer {
   };
 
   void generate();
-  void meet(const Path& path, const Ray& ray, const Hit& hit);
+  void meet(const Path& path, const Ray& ray, const Passed& passed, const Hit& hit);
   void missed(const Path& path, vec3 directionW);
   void light();
   void lightBy(std::uint32_t light);
@@ -73,6 +73,7 @@ class TileTracer {
 
   std::vector<Path> paths_, nextPaths_;
   std::vector<Ray> rays_, nextRays_, probes_;
+  std::vector<Passed> passed_, nextPassed_;
   std::vector<Hit> hits_;
   std::vector<Lit> lit_;
   std::vector<Probe> values_;
