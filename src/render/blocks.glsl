@@ -11,7 +11,7 @@ struct ViewValues {
   vec4 eyeW;           // perspective: (position, 1); orthographic: (unit vector towards the eye, 0)
   vec4 size;           // of the whole picture: width, height in pixels; 1 / width, 1 / height
   vec4 window;         // of what is drawn of it: its lower left corner, width, height in pixels
-  vec4 windowFromClip; // xy: factors, zw: shifts (times w) that put the window's part in [-w, w]
+  vec4 viewportFromClip;  // xy: factors, zw: shifts (times w) that put the viewport's part in [-w, w]
 };
 
 // How one material slot reads its texture.

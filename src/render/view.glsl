@@ -11,11 +11,11 @@ vec2 pictureUv(vec2 fragCoord) { return (fragCoord + view.window.xy) * view.size
 // Normalised device coordinates of the whole picture at a pixel's centre.
 vec2 ndcOfPixel(vec2 fragCoord) { return pictureUv(fragCoord) * 2.0 - 1.0; }
 
-// What a vertex shader gives to gl_Position: the place in the window that is drawn. Without tiles that is
-// the whole picture, and nothing changes.
+// What a vertex shader gives to gl_Position, for the viewport of render::ViewData. That is the whole
+// picture unless the picture is too large for one, and nothing changes.
 vec4 windowPosition(vec4 positionV) {
   vec4 clip = view.clipFromView * positionV;
-  clip.xy = clip.xy * view.windowFromClip.xy + clip.w * view.windowFromClip.zw;
+  clip.xy = clip.xy * view.viewportFromClip.xy + clip.w * view.viewportFromClip.zw;
   return clip;
 }
 

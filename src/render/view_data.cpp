@@ -7,11 +7,21 @@ namespace {
 
 using dmat4 = glm::dmat4;
 
-// Normalised device coordinates of the window from those of the picture: factors and shifts. For
-// the whole picture they are exactly 1 and 0.
-vec4 windowFromClip(uvec2 size, const Window& window) {
-  const glm::dvec2 picture(size), part(window.size), origin(window.origin);
+// Normalised device coordinates of a part of the picture from those of the picture: factors and
+// shifts. For the whole picture they are exactly 1 and 0.
+vec4 partFromClip(uvec2 size, const glm::dvec2& origin, const glm::dvec2& part) {
+  const glm::dvec2 picture(size);
   return {vec2(picture / part), vec2((picture - 2. * origin - part) / part)};
+}
+
+vec4 windowFromClip(const ViewData& data) {
+  return partFromClip(data.size, glm::dvec2(data.window.origin), glm::dvec2(data.window.size));
+}
+
+vec4 viewportFromClip(const ViewData& data) {
+  const gpu::Rect& viewport = data.viewport;
+  return partFromClip(data.size, glm::dvec2(data.window.origin + ivec2(viewport.x, viewport.y)),
+                      {viewport.width, viewport.height});
 }
 
 blocks::ViewValues viewValues(const ViewData& data) {
@@ -26,19 +36,27 @@ blocks::ViewValues viewValues(const ViewData& data) {
           .eyeW = eyeW,
           .size = vec4(pixels, 1.f / pixels),
           .window = vec4(vec2(data.window.origin), vec2(data.window.size)),
-          .windowFromClip = windowFromClip(data.size, data.window)};
+          .viewportFromClip = viewportFromClip(data)};
 }
 
 }  // namespace
 
 Frustum ViewData::frustumW() const {
-  const vec4 part = windowFromClip(size, window);
+  const vec4 part = windowFromClip(*this);
   mat4 toWindow(1.f);
   toWindow[0].x = part.x;
   toWindow[1].y = part.y;
   toWindow[3].x = part.z;
   toWindow[3].y = part.w;
   return frustumOf(toWindow * view.clipFromWorld());
+}
+
+gpu::Rect viewportOf(uvec2 size, const Window& window, int maxSide) {
+  const ivec2 picture(size), part(window.size);
+  gpu::Rect viewport{-window.origin.x, -window.origin.y, picture.x, picture.y};
+  if (picture.x > maxSide) viewport.x = 0, viewport.width = part.x;
+  if (picture.y > maxSide) viewport.y = 0, viewport.height = part.y;
+  return viewport;
 }
 
 void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uvec2 size) {
@@ -53,6 +71,7 @@ void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uv
   data.view = view;
   data.size = size;
   data.window = window;
+  data.viewport = viewportOf(size, window, device.capabilities().maxTextureSide);
   const blocks::ViewValues values = viewValues(data);
   device.write(data.block, std::as_bytes(std::span(&values, 1)), "ViewBlock");
 }

@@ -16,13 +16,20 @@ struct Window {
 
 struct ViewData {
   static constexpr const char* kPortName = "View";
-  scene::View view;   // of the whole picture
-  uvec2 size{0};      // px of the whole picture
-  Window window;      // what is drawn of it
+  scene::View view;  // of the whole picture
+  uvec2 size{0};     // px of the whole picture
+  Window window;     // what is drawn of it
+  // For drawing what is projected (windowPosition() of render/view.glsl) into the window's
+  // textures.
+  gpu::Rect viewport;
   gpu::Buffer block;  // ViewBlock
 
   Frustum frustumW() const;  // of the window
 };
+
+// In px from the window's lower left corner: the whole picture, so that a tile is rasterised as the
+// picture is, and its edges are the same. Along a side of more than maxSide px, the window.
+gpu::Rect viewportOf(uvec2 size, const Window& window, int maxSide);
 
 // Fills `data` for a view of a picture of the given size; reuses its buffer.
 void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uvec2 size);

@@ -46,6 +46,7 @@ void CustomShaders::execute(graph::PassContext& context, const Params& params, c
       .colors = {{ports.color.get(), ports.color.isNew() ? gpu::Load::Clear : gpu::Load::Keep,
                   vec4(0.f, 0.f, 0.f, 1.f)}},
       .depth = {ports.depth.get()},
+      .viewport = ports.view->viewport,
   });
   // The objects are in the depth buffer already: what passes is what is seen.
   const gpu::RenderState state{.depthTest = true,

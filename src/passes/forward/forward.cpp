@@ -30,6 +30,7 @@ void Forward::execute(graph::PassContext& context, const Params& params, const P
   gpu::Rendering rendering = context.device.render({
       .colors = {{ports.color.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)}},
       .depth = {ports.depth.get(), gpu::Load::Clear},
+      .viewport = ports.view->viewport,
   });
   const gpu::RenderState state{.depthTest = true,
                                .depthWrite = true,

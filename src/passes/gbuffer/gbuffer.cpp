@@ -56,6 +56,7 @@ void GBuffer::execute(graph::PassContext& context, const Params& params, const P
                  {ports.material.get(), gpu::Load::Clear, vec4(0.f)},
                  {ports.emissive.get(), gpu::Load::Clear, vec4(0.f)}},
       .depth = {ports.depth.get(), gpu::Load::Clear},
+      .viewport = ports.view->viewport,
   });
   const gpu::RenderState state{.depthTest = true,
                                .depthWrite = true,

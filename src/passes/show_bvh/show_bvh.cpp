@@ -69,8 +69,9 @@ void ShowBvh::execute(graph::PassContext& context, const Params& params, const P
         "BVH boxes");
   }
 
-  gpu::Rendering rendering =
-      context.device.render({.colors = {{ports.color.get()}}, .depth = {ports.depth.get()}});
+  gpu::Rendering rendering = context.device.render({.colors = {{ports.color.get()}},
+                                                    .depth = {ports.depth.get()},
+                                                    .viewport = ports.view->viewport});
   rendering.use(
       *program_,
       {.depthTest = !params.hidden, .cull = gpu::Cull::None, .topology = gpu::Topology::Lines});

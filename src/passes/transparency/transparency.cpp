@@ -27,8 +27,9 @@ void Transparency::describe(graph::PassInfo<Params, Ports>& d) {
 void Transparency::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   const render::DrawList& list = ports.drawLists->transparent;
   if (list.objects.empty()) return;
-  gpu::Rendering rendering =
-      context.device.render({.colors = {{ports.color.get()}}, .depth = {ports.depth.get()}});
+  gpu::Rendering rendering = context.device.render({.colors = {{ports.color.get()}},
+                                                    .depth = {ports.depth.get()},
+                                                    .viewport = ports.view->viewport});
   const gpu::RenderState state{.depthTest = true,
                                .blend = gpu::Blend::Transmit,
                                .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
