@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""The passes against the ray-traced reference, which shares no code with them.
+
+Usage: truth_test.py PROGRAM [unittest arguments]
+"""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = ""
+# What is left is edges, where a ray and a rasteriser may see different surfaces, and the G-buffer's rounding.
+LEAST_PSNR = 55  # dB
+UNTEXTURED = ("builtin:cornell", "builtin:penumbra", "builtin:penumbra?case=panes", "builtin:penumbra?case=overlap")
+
+
+def lucerna(*arguments):
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300, check=False)
+
+
+class TruthTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="lucerna-truth-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def psnr(self, scene, pipeline, *reference):
+        truth, test = self.folder / "truth.exr", self.folder / "test.exr"
+        for run in (lucerna("reference", scene, "--size", "320x180", *reference, "-o", truth),
+                    lucerna("render", scene, "--size", "320x180", "--pipeline", pipeline, "-o", test)):
+            self.assertEqual(run.returncode, 0, run.stderr)
+        compared = lucerna("compare", truth, test, "--json")
+        self.assertEqual(compared.returncode, 0, compared.stderr)
+        return json.loads(compared.stdout)["psnr"]
+
+    def test_unshadowed_light_agrees(self):
+        for scene in UNTEXTURED:
+            for pipeline in ("deferred", "forward"):
+                with self.subTest(scene=scene, pipeline=pipeline):
+                    psnr = self.psnr(scene, pipeline, "--spp", 1, "--primary", "centre", "--shading", "point",
+                                     "--shadows", "off", "--mirrors", 0)
+                    print(f"{scene}, {pipeline}: {psnr:.1f} dB", flush=True)
+                    self.assertGreater(psnr, LEAST_PSNR)
+
+    def test_shadows_make_the_difference(self):
+        psnr = self.psnr("builtin:penumbra", "deferred", "--spp", 1, "--primary", "centre", "--shading", "point")
+        self.assertLess(psnr, LEAST_PSNR - 10)
+
+
+class CommandTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="lucerna-reference-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def test_says_what_it_made(self):
+        picture = self.folder / "out.exr"
+        run = lucerna("reference", "builtin:cornell", "--size", "32x18", "--spp", 64, "--error", 0.2, "--layers",
+                      "color,direct,reflection,ao,visibility,error", "-o", picture, "--json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        said = json.loads(run.stdout)
+        self.assertEqual(said["files"], [str(picture)])
+        self.assertTrue(16 <= said["samples"] < 64, said["samples"])
+        self.assertTrue(0 <= said["error"]["median"] < said["error"]["p99"])  # half of it is black
+        self.assertEqual(len(said["lights"]), 1)
+        again = self.folder / "again.exr"
+        lucerna("reference", "builtin:cornell", "--size", "32x18", "--spp", 64, "--error", 0.2, "--layers",
+                "color,direct,reflection,ao,visibility,error", "--threads", 1, "-o", again)
+        self.assertEqual(picture.read_bytes(), again.read_bytes())
+
+    def test_refuses_what_cannot_be(self):
+        for arguments, code, words in (
+                (("builtin:cornell", "-o", self.folder / "a.png"), 2, ".exr or .hdr"),
+                (("builtin:cornell", "-o", self.folder / "a.hdr", "--layers", "color,ao"), 2, "several layers"),
+                (("builtin:cornell", "-o", self.folder / "a.exr", "--layers", "colour"), 2, "did you mean"),
+                (("builtin:cornell", "-o", self.folder / "a.exr", "--focus-distance", 2), 2, "--lens-radius"),
+                (("builtin:cornel", "-o", self.folder / "a.exr"), 3, "cornell"),
+                (("builtin:cornell", "-o", self.folder / "a.exr", "--camera", "none"), 2, "camera")):
+            with self.subTest(arguments):
+                run = lucerna("reference", *arguments)
+                self.assertEqual(run.returncode, code, run.stderr)
+                self.assertIn(words, run.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
