@@ -50,7 +50,8 @@ void Background::execute(graph::PassContext& context, const Params& params, cons
   rendering.buffer("ViewBlock", ports.view->block);
   program.set("radiance", intensity * (image || cubeMap ? vec3(1.f) : background.color));
   if (image) {
-    gpu::Sampler sampler{.filter = gpu::Filter::Trilinear};
+    // Of two eyes each sees a little beyond one of its edges.
+    const gpu::Sampler sampler{.filter = gpu::Filter::Trilinear, .u = gpu::Address::MirroredRepeat};
     rendering.texture("image", gpuScene.textures[background.texture], sampler);
   }
   if (cubeMap) {

@@ -20,8 +20,9 @@ layout(location = 0) out vec4 color;
 void main() {
   color = vec4(radiance, 1.0);
 #ifdef IMAGE
-  // Pictures start at the top, targets at the bottom.
-  vec2 place = pictureUv(gl_FragCoord.xy);
+  // At infinity: what is straight ahead of an off-axis eye lies at -clipFromView[2].xy. Pictures start
+  // at the top, targets at the bottom.
+  vec2 place = pictureUv(gl_FragCoord.xy) + 0.5 * view.clipFromView[2].xy;
   color.rgb *= texture(image, vec2(place.x, 1.0 - place.y)).rgb;
 #endif
 #ifdef CUBE_MAP

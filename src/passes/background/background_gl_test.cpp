@@ -55,6 +55,40 @@ TEST(Background, StretchesAPictureOverTheOutputUpright) {
   testing::expectNoDebugMessages();
 }
 
+// The parallax of a picture is that of a wall at the end of the world.
+TEST(Background, APictureStandsAtInfinityForTwoEyes) {
+  constexpr uvec2 kSize{256, 64};
+  scene::Scene picture = testing::emptyScene(), wall = testing::emptyScene();
+  picture.textures.push_back(quarters(1.f));  // green from the middle on
+  picture.background.kind = scene::BackgroundKind::Image;
+  picture.background.texture = 0;
+  constexpr float kFar = 1e5f;
+  testing::addWall(wall, kFar).emissive = vec3(0, 1, 0);
+  scene::Node& place = wall.nodes.back();  // from the middle on, too
+  place.translation = {kFar, 0, -2 * kFar};
+  place.scale = vec3(2 * kFar);
+  updateTransforms(wall);
+  wall.cameras[0].far = 0.f;  // as far as there is anything
+  // Where green begins in the upper half.
+  const auto edgeOf = [&](const scene::Scene& scene, float side) {
+    testing::SceneRenderer renderer(scene);
+    const scene::View middle = viewOf(scene, scene.cameras[0], 4.f);
+    const auto output = renderer.render(testing::rows(kRows), eyeView(middle, side * 0.5f, 3.f),
+                                        kSize, {"Background.color"});
+    EXPECT_TRUE(output) << output.error().message;
+    int x = 0;
+    while (x < 256 && testing::colorAt(output->kept.at("Background.color"), x, 2).y < 0.5f) ++x;
+    return x;
+  };
+  EXPECT_EQ(edgeOf(picture, 0), 128);
+  for (const float side : {-1.f, 1.f}) {
+    EXPECT_NEAR(edgeOf(picture, side), edgeOf(wall, side), 1);
+    EXPECT_EQ(edgeOf(wall, side) > 128, side > 0);
+    EXPECT_GT(std::abs(edgeOf(wall, side) - 128), 8);
+  }
+  testing::expectNoDebugMessages();
+}
+
 // Each face is what a camera at the origin sees along its axis, upright.
 TEST(Background, ACubeMapStandsUprightAroundTheEye) {
   scene::Scene scene = testing::emptyScene();
