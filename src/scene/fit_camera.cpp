@@ -86,14 +86,17 @@ Horizon lookAround(const Scene& scene, vec3 eye) {
   return horizon;
 }
 
-// Outputs narrower than `frame` (width / height) keep its width.
-void addCamera(Scene& scene, vec3 eye, vec3 target, float frame) {
+// Looks along `ahead`, not straight up or down. Outputs narrower than `frame` (width / height) keep
+// its width.
+void addCamera(Scene& scene, vec3 eye, vec3 ahead, float frame) {
   Camera camera;
   camera.name = "default";
   camera.fovY = kFovY;
   camera.aspect = frame;
-  camera.node =
-      addNode(scene, "default camera", glm::inverse(glm::lookAt(eye, target, vec3(0.f, 1.f, 0.f))));
+  // Far from the origin, eye + ahead may be the eye.
+  mat4 place = glm::inverse(glm::lookAt(vec3(0.f), ahead, vec3(0.f, 1.f, 0.f)));
+  place[3] = vec4(eye, 1.f);
+  camera.node = addNode(scene, "default camera", place);
   scene.cameras.push_back(camera);
 }
 
@@ -115,7 +118,7 @@ void addCameraOutside(Scene& scene, const Aabb& box, vec3 toEye) {
   float frame = 0.f;  // as wide as the box looks
   for (const vec3& corner : corners)
     frame = std::max(frame, std::abs(corner.x) / (distance - corner.z) / tanY);
-  addCamera(scene, box.center() + toEye * distance, box.center(), kMargin * frame);
+  addCamera(scene, box.center() + toEye * distance, -toEye, kMargin * frame);
 }
 
 }  // namespace
@@ -130,7 +133,7 @@ void addFittingCamera(Scene& scene) {
         fmt::format("{} of {} objects lie so far away that no camera can show them with the rest; "
                     "the default camera leaves them out",
                     lost, scene.objects.size()));
-  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), vec3(0.f), 0.f);
+  if (box.empty()) return addCamera(scene, vec3(0.f, 1.f, 3.f), -vec3(0.f, 1.f, 3.f), 0.f);
 
   // A room: from its middle most sight lines end at the front of a wall; from the middle of a solid
   // thing they end at back faces. A car has an inside too, but none to stand in; nor is a
@@ -157,7 +160,7 @@ void addFittingCamera(Scene& scene) {
   }
   const float back = std::min(horizon[best].distance(), box.diagonal());
   eye += direction(best) * (0.8f * back);
-  addCamera(scene, eye, eye - direction(best), 1.f);
+  addCamera(scene, eye, -direction(best), 1.f);
 }
 
 }  // namespace lucerna::scene
