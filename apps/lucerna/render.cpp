@@ -60,11 +60,14 @@ app::ProfileSubject profileSubject(const app::Session& session) {
           .pipeline = session.pipeline.name,
           .renderer = session.device->description(),
           .size = session.settings.size,
+          .plan = session.plan,
           .gpuClock = session.device->timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer"};
 }
 
-Status writeProfile(const app::ProfileLog& profile, const std::string& path) {
+Status writeProfile(app::ProfileLog& profile, const app::Session& session,
+                    const std::string& path) {
   if (profile.empty()) return {};  // not asked for, or cancelled before the first frame
+  profile.setSubject(profileSubject(session));
   LUCERNA_TRY_VOID(profile.write(path));
   log::info("mean cost of a frame\n{}", profile.table());
   return {};
@@ -86,12 +89,12 @@ Result<int> render(const Options& options, bool json) {
   LUCERNA_TRY(session, app::openSession(options.render, writer.layers()));
   LUCERNA_TRY_VOID(
       app::checkRowFiles(session->pipeline, session->registry, writer.name(), options.render));
-  app::ProfileLog profile(profileSubject(*session));
+  app::ProfileLog profile;
   const Status drawn = renderFrames(*session, writer, profilePath.empty() ? nullptr : &profile);
   // What was drawn before Ctrl-C is whole and stays, with its profile.
   if (drawn || drawn.error().kind == ErrorKind::Cancelled) {
     LUCERNA_TRY_VOID(writer.finish());
-    LUCERNA_TRY_VOID(writeProfile(profile, profilePath));
+    LUCERNA_TRY_VOID(writeProfile(profile, *session, profilePath));
   }
   if (!drawn && !writer.written().empty()) log::info("kept {}", whatWasWritten(*session, writer));
   LUCERNA_TRY_VOID(drawn);

@@ -48,6 +48,19 @@ const Form* formOf(const std::string& path) {
 
 }  // namespace
 
+std::string ProfileSubject::sizeText() const {
+  const std::size_t views = plan.places.size();
+  const std::size_t eyes = views == 0 ? 1 : static_cast<std::size_t>(plan.eyes());
+  std::string text = eyes == 1 ? "" : fmt::format("{} eyes of ", eyes);
+  text += fmt::format("{} x {} pixels", size.x, size.y);
+  if (plan.picture != uvec2(0) && plan.picture != size)
+    text += fmt::format(", rendered at {} x {}", plan.picture.x, plan.picture.y);
+  if (views > eyes)
+    text +=
+        fmt::format(", in {} tiles drawn at {} x {}", views / eyes, plan.window.x, plan.window.y);
+  return text;
+}
+
 std::string ProfileLog::csv() const {
   std::string text = "frame,pass,view,cpu_ms,gpu_ms,draws,primitives,texture_bytes,gpu_clock\n";
   // Of a step or of the frame.

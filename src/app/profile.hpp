@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/view_plan.hpp"
 #include "core/math/math.hpp"
 #include "core/result.hpp"
 #include "graph/executor.hpp"
@@ -14,13 +15,20 @@ namespace lucerna::app {
 // What was measured, and how.
 struct ProfileSubject {
   std::string scene{}, pipeline{}, renderer{};
-  uvec2 size{0};           // px of the output
+  uvec2 size{0};           // px of the output, with two eyes of each
+  ViewPlan plan{};         // what was drawn for it
   std::string gpuClock{};  // how gpu_ms was measured: "gpu-timer" or "cpu-after-finish"
+
+  // "1280 x 720 pixels, rendered at 2560 x 1440"
+  std::string sizeText() const;
 };
 
 class ProfileLog {
  public:
-  explicit ProfileLog(ProfileSubject subject) : subject_(std::move(subject)) {}
+  explicit ProfileLog(ProfileSubject subject = {}) : subject_(std::move(subject)) {}
+
+  // How the frames were drawn is known when one is.
+  void setSubject(ProfileSubject subject) { subject_ = std::move(subject); }
 
   void add(const graph::FrameProfile& frame) { frames_.push_back(frame); }
   bool empty() const { return frames_.empty(); }

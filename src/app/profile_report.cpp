@@ -40,9 +40,8 @@ bool hasManyViews(const ProfileSummary& summary) {
 }
 
 std::string whatWasMeasured(const ProfileSummary& summary, const ProfileSubject& subject) {
-  return fmt::format("{}, pipeline {}, {} x {} pixels, {} frame{}{}", subject.scene,
-                     subject.pipeline, subject.size.x, subject.size.y, summary.frames,
-                     summary.frames == 1 ? "" : "s",
+  return fmt::format("{}, pipeline {}, {}, {} frame{}{}", subject.scene, subject.pipeline,
+                     subject.sizeText(), summary.frames, summary.frames == 1 ? "" : "s",
                      summary.firstLeftOut ? " after the first" : "");
 }
 

@@ -84,8 +84,25 @@ TEST(ProfileReport, HtmlHasTheTableAndABarForEveryPassAndFrame) {
                           Not(HasSubstr("frame 0"))));
 }
 
+TEST(ProfileReport, SaysWhatWasDrawn) {
+  const auto text = [](int eyes, uvec2 rendered, int tile) {
+    ProfileLog log({.size = {640, 360}, .plan = planViews(rendered, eyes, tile, 0)});
+    log.add(frame(0, {step("Ao", 0, 1)}));
+    const std::string page = profileMarkdown(log);
+    EXPECT_THAT(profileHtml(log), HasSubstr(log.subject().sizeText()));
+    EXPECT_THAT(page, HasSubstr(log.subject().sizeText()));
+    return log.subject().sizeText();
+  };
+  EXPECT_EQ(text(1, {640, 360}, 0), "640 x 360 pixels");
+  EXPECT_EQ(text(1, {1280, 720}, 0), "640 x 360 pixels, rendered at 1280 x 720");
+  EXPECT_EQ(text(2, {640, 360}, 0), "2 eyes of 640 x 360 pixels");
+  EXPECT_EQ(text(1, {640, 360}, 128), "640 x 360 pixels, in 15 tiles drawn at 128 x 136");
+  EXPECT_EQ(text(2, {320, 180}, 128),
+            "2 eyes of 640 x 360 pixels, rendered at 320 x 180, in 6 tiles drawn at 128 x 132");
+}
+
 TEST(ProfileReport, ViewsAreToldApart) {
-  ProfileLog log({});
+  ProfileLog log;
   log.add(frame(0, {step("Ao", 0, 1), step("Ao", 1, 2)}));
   EXPECT_THAT(profileMarkdown(log),
               AllOf(HasSubstr("| Ao, view 0 |"), HasSubstr("| Ao, view 1 |")));
@@ -93,7 +110,7 @@ TEST(ProfileReport, ViewsAreToldApart) {
 
 // 1000 frames in 334 columns of three.
 TEST(ProfileReport, ManyFramesShareColumns) {
-  ProfileLog log({});
+  ProfileLog log;
   for (std::uint64_t f = 0; f <= 1000; ++f)
     log.add(frame(f, {step("Ao", 0, static_cast<double>(f % 3))}));
   const std::string page = profileHtml(log);
