@@ -121,6 +121,8 @@ Result<int> reference(Options& options, bool json) {
                {"lights", lightsOf(scene)},
                {"samples", picture.meanSamples},
                {"error", {{"median", median}, {"p99", high}}},
+               {"rays", {{"closest", picture.rays.closest}, {"occlusion", picture.rays.occlusion}}},
+               {"cpu_seconds", {{"rays", picture.rays.seconds}, {"all", picture.seconds}}},
                {"seconds", seconds.count()},
                {"warnings", scene.warnings}});
   else

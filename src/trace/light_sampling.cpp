@@ -100,6 +100,18 @@ LightSample sampleLight(const PlacedLight& light, vec3 positionW, vec2 u) {
   return lightCentre(light, positionW);
 }
 
+bool mayLight(const PlacedLight& light, vec3 positionW, vec3 normalW) {
+  if (light.kind == LightKind::Directional)
+    return glm::dot(normalW, -light.directionW) > -std::sin(0.5f * std::min(light.angle, kPi));
+  const vec3 toLight = light.positionW - positionW;
+  const float squared = glm::dot(toLight, toLight), farthest = light.reach + light.radius;
+  if (squared >= farthest * farthest || glm::dot(toLight, normalW) <= -light.radius) return false;
+  if (light.kind != LightKind::Spot || light.cosOuter < 0.f) return true;
+  // All of the disc is as far along the axis as its centre.
+  const float nearest = std::max(std::sqrt(squared) - light.radius, 0.f);
+  return -glm::dot(toLight, light.directionW) >= light.cosOuter * nearest;
+}
+
 LightSample lightCentre(const PlacedLight& light, vec3 positionW) {
   if (light.kind == LightKind::Directional)
     return {.toLightW = -light.directionW,

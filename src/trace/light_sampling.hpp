@@ -24,6 +24,10 @@ LightSample sampleLight(const scene::PlacedLight& light, vec3 positionW, vec2 u)
 // The light as if it had no size, from its centre.
 LightSample lightCentre(const scene::PlacedLight& light, vec3 positionW);
 
+// False only if no part of the light gives anything to the surface: out of reach, behind it, or
+// outside its cone. Much cheaper than a sample.
+bool mayLight(const scene::PlacedLight& light, vec3 positionW, vec3 normalW);
+
 // A unit vector and two that are square to it and to each other.
 struct Frame {
   explicit Frame(vec3 axis);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/random.hpp"
 #include "trace/low_discrepancy.hpp"
 
 namespace lucerna::trace {
@@ -81,6 +82,32 @@ TEST(LightSampling, DistancesEndOnTheLight) {
     EXPECT_NEAR(glm::dot(onDisc - disc.positionW, disc.directionW), 0.f, 1e-5f);
   }
   EXPECT_TRUE(std::isinf(sampleLight(lightOf(LightKind::Directional), place, vec2(0.5f)).distance));
+}
+
+// The quick test never leaves out what a sample would have found.
+TEST(LightSampling, NothingThatLightsIsPassedOver) {
+  Random random(11);
+  int lit = 0, passedOver = 0;
+  for (int i = 0; i < 20000; ++i) {
+    PlacedLight light = lightOf(static_cast<LightKind>(i % 3));
+    light.radius = random.uniform(0, 1);
+    light.angle = random.uniform(0, 1);
+    if (light.kind != LightKind::Directional) light.reach = random.uniform(0.5f, 8.f);
+    light.cosOuter = random.uniform(-0.5f, 0.9f);
+    const auto vector = [&](float size) {
+      return vec3(random.uniform(-size, size), random.uniform(-size, size),
+                  random.uniform(-size, size));
+    };
+    const vec3 place = light.positionW + vector(6.f), normal = glm::normalize(vector(1.f));
+    const LightSample s = sampleLight(light, place, {random.uniform(), random.uniform()});
+    const bool lights = glm::dot(s.toLightW, normal) > 1e-5f && s.irradiance.x > 0.f;
+    const bool may = mayLight(light, place, normal);
+    EXPECT_TRUE(may || !lights) << i;
+    lit += lights;
+    passedOver += !may;
+  }
+  EXPECT_GT(lit, 2000);
+  EXPECT_GT(passedOver, 8000);
 }
 
 TEST(LightSampling, ASpotLightKeepsToItsCone) {

@@ -1,7 +1,9 @@
 #include "trace/reference.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <mutex>
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
@@ -35,16 +37,6 @@ struct PixelSum {
     return vec3(glm::max(squares / count - m * m, glm::dvec3(0.)) * (count / (count - 1)));
   }
 };
-
-// Rows of 4x4 pixels: sixteen neighbours are one packet of rays.
-std::vector<ivec2> pixelsOfTile(ivec2 first, ivec2 end) {
-  std::vector<ivec2> pixels;
-  for (int by = first.y; by < end.y; by += 4)
-    for (int bx = first.x; bx < end.x; bx += 4)
-      for (int y = by; y < std::min(by + 4, end.y); ++y)
-        for (int x = bx; x < std::min(bx + 4, end.x); ++x) pixels.emplace_back(x, y);
-  return pixels;
-}
 
 std::vector<ivec2> tilesOf(ivec2 size) {
   std::vector<ivec2> corners;
@@ -107,12 +99,16 @@ class Film {
   std::vector<float> visibility_;  // sums; pixel by pixel, light by light
   std::vector<ivec2> tiles_;       // their corners
   Progress progress_;
+  std::mutex mutex_;  // of what all threads add to
+  RayStatistics rays_;
+  double seconds_ = 0;
 };
 
 void Film::traceTile(ivec2 corner, int begin, int end) {
-  std::vector<ivec2> pixels = pixelsOfTile(corner, glm::min(corner + kTileSide, size_));
+  std::vector<ivec2> pixels = packedPixels(corner, glm::min(corner + kTileSide, size_));
   std::erase_if(pixels, [&](ivec2 p) { return exactEnough(pixels_[at(p)]); });
   if (pixels.empty()) return;
+  const auto start = std::chrono::steady_clock::now();
   const std::size_t lights = traced_.lights.size();
   TileTracer tracer(traced_);
   std::vector<PixelSample> samples(pixels.size());
@@ -125,10 +121,16 @@ void Film::traceTile(ivec2 corner, int begin, int end) {
   for (std::size_t p = 0; !visibility.empty() && p < pixels.size(); ++p)
     for (std::size_t l = 0; l < lights; ++l)
       visibility_[at(pixels[p]) * lights + l] += visibility[l * pixels.size() + p];
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  const std::scoped_lock lock(mutex_);
+  rays_.add(tracer.statistics());
+  seconds_ += seconds.count();
 }
 
 ReferencePicture Film::picture() const {
   ReferencePicture result;
+  result.rays = rays_;
+  result.seconds = seconds_;
   const auto image = [&](int channels) {
     return Image(size_.x, size_.y, channels, ComponentType::F32);
   };
@@ -168,15 +170,7 @@ float errorOf(vec3 mean, vec3 variance, double samples, float white) {
 }
 
 ReferencePicture renderReference(const scene::Scene& scene, const ReferenceSettings& settings) {
-  TracedScene traced{.scene = scene,
-                     .settings = settings,
-                     .rays = RayScene(scene, settings.view.viewFromWorld),
-                     .lights = placeLights(scene),
-                     .ambient = scene.ambient,
-                     .viewFromClip = glm::inverse(settings.view.clipFromView)};
-  for (const scene::PlacedLight& light : traced.lights) traced.ambient += light.ambient;
-  traced.ambient *= settings.ambient;
-
+  const TracedScene traced(scene, settings);
   Film film(traced);
   // Each round doubles the samples, so that sequences of powers of two are whole in all pixels.
   bool cancelled = false;

@@ -45,6 +45,19 @@ struct ReferenceSettings {
   bool visibility = false;                      // also a picture of each light's visibility
 };
 
+enum class RayKind { Closest, Occlusion };
+
+struct RayStatistics {
+  std::uint64_t closest = 0, occlusion = 0;  // rays
+  double seconds = 0;                        // of all threads, spent in following them
+
+  void add(const RayStatistics& other) {
+    closest += other.closest;
+    occlusion += other.occlusion;
+    seconds += other.seconds;
+  }
+};
+
 struct ReferencePicture {
   Image color;       // F32 RGB, linear radiance
   Image direct;      // of it, what comes from lights without mirrors or bounces
@@ -55,6 +68,8 @@ struct ReferencePicture {
                            // the first surface sees; 0 where it faces away or out of reach
   Image error;             // F32, standard error of colour: errorOf()
   double meanSamples = 0;  // a pixel
+  RayStatistics rays;
+  double seconds = 0;      // of all threads, spent in samples
   bool cancelled = false;  // by Progress::cancelled(); what is there is right, but noisy
 };
 

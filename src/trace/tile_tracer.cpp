@@ -1,6 +1,7 @@
 #include "trace/tile_tracer.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "trace/light_sampling.hpp"
@@ -10,6 +11,12 @@
 
 namespace lucerna::trace {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 constexpr int kMostLayers = 64;  // translucent or turned-away surfaces that a ray passes
 
@@ -30,6 +37,26 @@ vec3 originOf(const SurfacePoint& point, vec3 directionW) {
 
 }  // namespace
 
+TracedScene::TracedScene(const scene::Scene& s, const ReferenceSettings& chosen)
+    : scene(s),
+      settings(chosen),
+      rays(s, chosen.view.viewFromWorld),
+      lights(placeLights(s)),
+      ambient(s.ambient),
+      viewFromClip(glm::inverse(chosen.view.clipFromView)) {
+  for (const scene::PlacedLight& light : lights) ambient += light.ambient;
+  ambient *= chosen.ambient;
+}
+
+std::vector<ivec2> packedPixels(ivec2 first, ivec2 end) {
+  std::vector<ivec2> pixels;
+  for (int by = first.y; by < end.y; by += 4)
+    for (int bx = first.x; bx < end.x; bx += 4)
+      for (int y = by; y < std::min(by + 4, end.y); ++y)
+        for (int x = bx; x < std::min(bx + 4, end.x); ++x) pixels.emplace_back(x, y);
+  return pixels;
+}
+
 TileTracer::TileTracer(const TracedScene& traced) : traced_(traced) {}
 
 void TileTracer::trace(std::span<const ivec2> pixels, std::uint32_t index,
@@ -40,9 +67,7 @@ void TileTracer::trace(std::span<const ivec2> pixels, std::uint32_t index,
   visibility_ = visibility;
   generate();
   while (!paths_.empty()) {
-    hits_.resize(rays_.size());
-    const bool allFresh = std::ranges::none_of(passed_, &Passed::any);
-    traced_.rays.closest(rays_, hits_, allFresh ? std::span<const Passed>() : passed_);
+    follow();
     lit_.clear();
     nextPaths_.clear();
     nextRays_.clear();
@@ -184,6 +209,7 @@ void TileTracer::lightBy(std::uint32_t index) {
   probes_.clear();
   for (std::uint32_t i = 0; i < lit_.size(); ++i) {
     const auto& [point, path] = lit_[i];
+    if (!mayLight(light, point.positionW, point.normalW)) continue;
     const LightSample sample =
         sampleLight(light, point.positionW, random(path, kFirstLight + index));
     const LightSample shaded = ofPoint ? lightCentre(light, point.positionW) : sample;
@@ -204,9 +230,24 @@ void TileTracer::lightBy(std::uint32_t index) {
   }
 }
 
+void TileTracer::follow() {
+  if (traced_.observe) traced_.observe(rays_, RayKind::Closest);
+  const auto start = Clock::now();
+  hits_.resize(rays_.size());
+  const bool allFresh = std::ranges::none_of(passed_, &Passed::any);
+  traced_.rays.closest(rays_, hits_, allFresh ? std::span<const Passed>() : passed_);
+  statistics_.closest += rays_.size();
+  statistics_.seconds += secondsSince(start);
+}
+
 void TileTracer::followProbes(bool occluded) {
   shares_.assign(probes_.size(), vec3(1.f));
-  if (occluded) traced_.rays.transmittance(probes_, shares_);
+  if (!occluded || probes_.empty()) return;
+  if (traced_.observe) traced_.observe(probes_, RayKind::Occlusion);
+  const auto start = Clock::now();
+  traced_.rays.transmittance(probes_, shares_);
+  statistics_.occlusion += probes_.size();
+  statistics_.seconds += secondsSince(start);
 }
 
 // Ambient light, whole or as far as nothing is in its way, or bounced light in its place.

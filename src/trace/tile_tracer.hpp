@@ -1,6 +1,7 @@
 // One sample for each pixel of a tile, with all rays of a kind in one stream.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -15,14 +16,22 @@ struct PixelSample {
   float ao = 1.f;
 };
 
+// What all tiles share. Scene and settings outlive it.
 struct TracedScene {
+  TracedScene(const scene::Scene& scene, const ReferenceSettings& settings);
+
   const scene::Scene& scene;
   const ReferenceSettings& settings;
   RayScene rays;
   std::vector<scene::PlacedLight> lights;
   vec3 ambient;  // radiance that a white surface shows
   mat4 viewFromClip;
+  // Sees each stream before it is followed; for benchmarks.
+  std::function<void(std::span<const Ray>, RayKind)> observe;
 };
+
+// Rows of 4x4 pixels of a rectangle: sixteen neighbours are one packet of rays.
+std::vector<ivec2> packedPixels(ivec2 first, ivec2 end);
 
 class TileTracer {
  public:
@@ -33,6 +42,8 @@ class TileTracer {
   // Pixels that are neighbours in the list should be so in the picture.
   void trace(std::span<const ivec2> pixels, std::uint32_t index, std::span<PixelSample> samples,
              std::span<float> visibility);
+
+  const RayStatistics& statistics() const { return statistics_; }  // of all samples so far
 
  private:
   // A ray on its way from the eye.
@@ -60,6 +71,7 @@ class TileTracer {
   void light();
   void lightBy(std::uint32_t light);
   void occlude();
+  void follow();                     // rays_ to hits_
   void followProbes(bool occluded);  // probes_ to shares_
   void add(const Path& path, vec3 radiance, bool direct);
   void continueFrom(const SurfacePoint& point, Path path, vec3 directionW);
@@ -68,6 +80,7 @@ class TileTracer {
   const TracedScene& traced_;
   std::span<const ivec2> pixels_;
   std::uint32_t index_ = 0;
+  RayStatistics statistics_;
   std::span<PixelSample> samples_;
   std::span<float> visibility_;
 
