@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "core/check.hpp"
+#include "scene/extent.hpp"
 
 namespace lucerna::scene {
 namespace {
@@ -27,14 +28,6 @@ constexpr std::size_t kSweepShare = 8;
 float halfArea(const Aabb& box) {
   const vec3 e = box.extent();
   return e.x * e.y + e.y * e.z + e.z * e.x;
-}
-
-// Boxes that the arithmetic of the build cannot handle are tested one by one.
-bool isBounded(const Aabb& box) {
-  constexpr float kLimit = 1e15f;
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(std::abs(box.min[axis]) < kLimit && std::abs(box.max[axis]) < kLimit)) return false;
-  return true;
 }
 
 struct Reference {
@@ -62,8 +55,8 @@ struct Binning {
 };
 
 Binning binningOf(const Aabb& centers, int axis) {
-  const float extent = centers.max[axis] - centers.min[axis];
-  return {centers.min[axis], extent > 0 ? kBins / extent : 0.f};
+  const float scale = kBins / (centers.max[axis] - centers.min[axis]);
+  return {centers.min[axis], std::isfinite(scale) ? scale : 0.f};  // 0: they are as good as one
 }
 
 // Cost of the best split of one axis, left to right sums of area times count.
@@ -179,7 +172,7 @@ void Bvh::build(std::span<const Aabb> boxes) {
   for (std::uint32_t item = 0; item < boxes.size(); ++item) {
     const Aabb& box = boxes[item];
     if (box.empty()) continue;
-    if (isBounded(box))
+    if (withinReach(box))
       references.push_back({box, box.center(), item});
     else
       unbounded.push_back(item);
@@ -271,7 +264,7 @@ bool Bvh::refit(std::span<const std::uint32_t> items, std::span<const Aabb> boxe
   };
   const bool fits =
       std::ranges::all_of(items, inTree) &&
-      std::ranges::all_of(boxes, [](const Aabb& box) { return !box.empty() && isBounded(box); });
+      std::ranges::all_of(boxes, [](const Aabb& box) { return !box.empty() && withinReach(box); });
   if (!fits) {
     rebuild(items, boxes);
     return false;

@@ -132,6 +132,17 @@ TEST(Bvh, LeavesEmptyBoxesOutAndKeepsUnboundedOnes) {
   }
 }
 
+// So near that the reciprocal of their distance overflows.
+TEST(Bvh, HandlesBoxesThatAreAllButEqual) {
+  std::vector<Aabb> boxes;
+  for (int i = 0; i < 20; ++i)
+    boxes.push_back(
+        {vec3(0.f), vec3(static_cast<float>(i) * std::numeric_limits<float>::denorm_min())});
+  Bvh bvh;
+  bvh.build(boxes);
+  EXPECT_EQ(bvh.items().size(), boxes.size());
+}
+
 TEST(Bvh, HandlesNothingAndManyEqualBoxes) {
   Bvh bvh;
   bvh.build({});
