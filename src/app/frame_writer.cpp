@@ -23,9 +23,9 @@ Image encodedRgb(const Image& image) {
 }
 
 // Distances and directions are not averaged.
-Image resizedLayer(const Image& image, LayerKind kind, uvec2 size) {
-  return kind == LayerKind::Color || kind == LayerKind::Albedo ? resizedLinear(image, size)
-                                                               : resizedNearest(image, size);
+Image resizedLayer(Image&& image, LayerKind kind, uvec2 size) {
+  const bool averaged = kind == LayerKind::Color || kind == LayerKind::Albedo;
+  return averaged ? resizedLinear(std::move(image), size) : resizedNearest(std::move(image), size);
 }
 
 bool holdsLinear(OutputKind kind) {
@@ -49,6 +49,12 @@ Status checkFlags(const OutputSettings& output, OutputKind kind) {
 // The whole picture is put together in memory, as the readers of such files will do.
 Status checkSize(const RenderSettings& settings, OutputKind kind) {
   const uvec2 size = settings.pictureSize(), rendered = settings.renderSize();
+  const auto longest = static_cast<std::uint32_t>(ImageLimits().maxSide);
+  if (kind == OutputKind::Exr && std::max(size.x, size.y) > longest)
+    return error(ErrorKind::Usage,
+                 "--size: sides of an EXR file have at most {} px, found {} x {}; make it smaller, "
+                 "or write PNG",
+                 longest, size.x, size.y);
   const std::uint64_t pixels =
       std::max(std::uint64_t{size.x} * size.y, std::uint64_t{rendered.x} * rendered.y);
   const std::uint64_t bytes = pixels * (holdsLinear(kind) ? 3 * sizeof(float) : 3);
@@ -157,10 +163,9 @@ Status FrameWriter::write(Session& session, int view, const gpu::Texture& output
 Image FrameWriter::finished(std::size_t part, const RenderSettings& settings) {
   std::vector<Image> eyes;
   for (std::vector<Part>& eye : eyes_) {
-    const auto& [kind, layer] = eye[part];
-    eyes.push_back(kind ? resizedLayer(layer.image, *kind, settings.size)
-                        : resizedSrgb(layer.image, settings.size));
-    eye[part].layer.image = {};
+    auto& [kind, layer] = eye[part];
+    eyes.push_back(kind ? resizedLayer(std::move(layer.image), *kind, settings.size)
+                        : resizedSrgb(std::move(layer.image), settings.size));
   }
   return joinEyes(std::move(eyes), settings.stereo.layout);
 }
@@ -172,7 +177,8 @@ Status FrameWriter::writeFrame(const Session& session) {
     const auto& [kind, like] = eyes_[0][i];
     ExrLayer layer{like.name, like.channels, finished(i, session.settings)};
     // A half reaches to 65504 with eleven bits: too little for distances.
-    if (name_.kind() == OutputKind::Exr && kind != LayerKind::Depth)
+    if (name_.kind() == OutputKind::Exr && kind != LayerKind::Depth &&
+        exrType_ != layer.image.type())
       layer.image = converted(layer.image, exrType_, layer.image.channels());
     layers.push_back(std::move(layer));
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "core/parallel.hpp"
 
@@ -36,12 +37,16 @@ std::vector<Taps> tentTaps(int from, int to) {
   return result;
 }
 
+bool hasSize(const Image& image, uvec2 size) {
+  return uvec2(image.width(), image.height()) == size;
+}
+
 }  // namespace
 
-Image resizedLinear(const Image& image, uvec2 size) {
+Image resizedLinear(Image image, uvec2 size) {
   CHECK(image.type() == ComponentType::F32);
+  if (hasSize(image, size)) return image;
   const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
-  if (image.width() == width && image.height() == height) return image;
   const int channels = image.channels();
   const std::vector<Taps> columns = tentTaps(image.width(), width);
   const std::vector<Taps> rows = tentTaps(image.height(), height);
@@ -68,8 +73,9 @@ Image resizedLinear(const Image& image, uvec2 size) {
   return result;
 }
 
-Image resizedNearest(const Image& image, uvec2 size) {
+Image resizedNearest(Image image, uvec2 size) {
   CHECK(image.type() == ComponentType::F32);
+  if (hasSize(image, size)) return image;
   Image result(static_cast<int>(size.x), static_cast<int>(size.y), image.channels(),
                ComponentType::F32);
   const auto nearest = [](int i, int from, int to) {
@@ -83,10 +89,9 @@ Image resizedNearest(const Image& image, uvec2 size) {
   return result;
 }
 
-Image resizedSrgb(const Image& image, uvec2 size) {
+Image resizedSrgb(Image image, uvec2 size) {
   CHECK(image.type() == ComponentType::U8);
-  if (image.width() == static_cast<int>(size.x) && image.height() == static_cast<int>(size.y))
-    return image;
+  if (hasSize(image, size)) return image;
   std::array<float, 256> linear;
   for (int i = 0; i < 256; ++i) linear[i] = linearFromSrgb(static_cast<float>(i) / 255.f);
   const auto isAlpha = [&](std::size_t i) {
@@ -99,7 +104,7 @@ Image resizedSrgb(const Image& image, uvec2 size) {
   for (std::size_t i = 0; i < source.size(); ++i)
     values[i] = isAlpha(i) ? static_cast<float>(source[i]) / 255.f : linear[source[i]];
 
-  const Image resized = resizedLinear(light, size);
+  const Image resized = resizedLinear(std::move(light), size);
   Image result(resized.width(), resized.height(), resized.channels(), ComponentType::U8);
   const auto from = resized.as<float>();
   const auto to = result.as<std::uint8_t>();

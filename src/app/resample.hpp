@@ -6,12 +6,14 @@
 
 namespace lucerna::app {
 
+// All hand the image back, pixels and all, if it has the size: move it in where memory counts.
+
 // Separable tent filter: bilinear when enlarging, widened to cover all source pixels when reducing.
 // image: F32, linear.
-Image resizedLinear(const Image& image, uvec2 size);
+Image resizedLinear(Image image, uvec2 size);
 // The nearest pixel's value, unmixed. image: F32.
-Image resizedNearest(const Image& image, uvec2 size);
+Image resizedNearest(Image image, uvec2 size);
 // image: U8, sRGB-encoded colours (alpha linear); filtered in linear light.
-Image resizedSrgb(const Image& image, uvec2 size);
+Image resizedSrgb(Image image, uvec2 size);
 
 }  // namespace lucerna::app

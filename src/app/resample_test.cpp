@@ -17,6 +17,17 @@ Image ramp(int width, int height) {
   return image;
 }
 
+TEST(Resample, HandsBackWhatHasTheSize) {
+  const auto isSame = [](Image (*resized)(Image, uvec2), ComponentType type) {
+    Image image = converted(ramp(64, 32), type, 3);
+    const std::byte* pixels = image.bytes().data();
+    return resized(std::move(image), {64, 32}).bytes().data() == pixels;
+  };
+  EXPECT_TRUE(isSame(resizedLinear, ComponentType::F32));
+  EXPECT_TRUE(isSame(resizedNearest, ComponentType::F32));
+  EXPECT_TRUE(isSame(resizedSrgb, ComponentType::U8));
+}
+
 // A linear ramp keeps its values at the new pixel centres (a tent sampled at uneven places is off
 // by a thousandth); constants stay constant, edges included.
 TEST(Resample, KeepsRampsAndConstants) {
