@@ -47,7 +47,9 @@ std::vector<ExrLayer> layersOf(const Options& options, const trace::ReferencePic
   std::vector<ExrLayer> layers;
   const auto put = [&](const std::string& name, std::vector<std::string> channels,
                        const Image& image) {
-    layers.push_back({.name = name, .channels = std::move(channels), .image = image});
+    // One alone is the file's main picture, which everybody reads.
+    const bool alone = options.layers.size() == 1 && name != "visibility";
+    layers.push_back({.name = alone ? "" : name, .channels = std::move(channels), .image = image});
   };
   for (const std::string& layer : options.layers) {
     if (layer == "color") put("", {"R", "G", "B"}, picture.color);

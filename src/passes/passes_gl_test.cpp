@@ -25,6 +25,8 @@ Stage stageOf(const std::string& type) {
   if (type == "Forward") return {testing::kForwardRows, "ToneMap.color"};
   if (type == "Fullscreen")  // of any format, so nobody reads it
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
+  if (type == "ScreenSpaceAo")
+    return {{"Cull", "GBuffer", type, "Lighting", "ToneMap"}, "ToneMap.color"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "SaveImage"},
             "ToneMap.color",

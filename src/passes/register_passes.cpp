@@ -8,6 +8,7 @@
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/lighting/lighting.hpp"
 #include "passes/save_image/save_image.hpp"
+#include "passes/screen_space_ao/screen_space_ao.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
 #include "passes/tone_map/tone_map.hpp"
@@ -31,6 +32,7 @@ void registerPasses(graph::Registry& registry) {
 
   registry.add<Cull>();
   registry.add<GBuffer>();
+  registry.add<ScreenSpaceAo>();
   registry.add<Lighting>();
   registry.add<CustomShaders>();
   registry.add<Forward>();

@@ -26,14 +26,19 @@ class TruthTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
 
+    def run_command(self, *arguments):
+        run = lucerna(*arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run.stdout
+
+    def compare(self, truth, test):
+        return json.loads(self.run_command("compare", truth, test, "--json"))
+
     def psnr(self, scene, pipeline, *reference):
         truth, test = self.folder / "truth.exr", self.folder / "test.exr"
-        for run in (lucerna("reference", scene, "--size", "320x180", *reference, "-o", truth),
-                    lucerna("render", scene, "--size", "320x180", "--pipeline", pipeline, "-o", test)):
-            self.assertEqual(run.returncode, 0, run.stderr)
-        compared = lucerna("compare", truth, test, "--json")
-        self.assertEqual(compared.returncode, 0, compared.stderr)
-        return json.loads(compared.stdout)["psnr"]
+        self.run_command("reference", scene, "--size", "320x180", *reference, "-o", truth)
+        self.run_command("render", scene, "--size", "320x180", "--pipeline", pipeline, "-o", test)
+        return self.compare(truth, test)["psnr"]
 
     def test_unshadowed_light_agrees(self):
         for scene in UNTEXTURED:
@@ -47,6 +52,30 @@ class TruthTest(unittest.TestCase):
     def test_shadows_make_the_difference(self):
         psnr = self.psnr("builtin:penumbra", "deferred", "--spp", 1, "--primary", "centre", "--shading", "point")
         self.assertLess(psnr, LEAST_PSNR - 10)
+
+
+    def test_ambient_occlusion(self):
+        for scene, radius in (("builtin:cornell?ambient=1", 0.3), ("builtin:atrium", 1)):
+            truth = self.folder / "ao.exr"
+            self.run_command("reference", scene, "--size", "320x180", "--primary", "centre", "--spp", 64,
+                             "--ao-radius", radius, "--layers", "ao", "-o", truth)
+            error = {}
+            for method in ("horizon", "hemisphere", "gaussian"):
+                test = self.folder / f"{method}.exr"
+                pipeline = self.folder / "ao.js"
+                pipeline.write_text(f"""pipeline({{output: "Lighting.color"}});
+                    pass("Cull"); pass("GBuffer");
+                    pass("ScreenSpaceAo", {{method: "{method}", radius: {radius}, samples: 24}});
+                    pass("SaveImage", {{file: {json.dumps(str(test))},
+                                        reads: {{color: "ScreenSpaceAo.ambientVisibility"}}}});
+                    pass("Lighting");""")
+                self.run_command("render", scene, "--size", "320x180", "--pipeline", pipeline, "-o",
+                                 self.folder / "picture.exr")
+                error[method] = self.compare(truth, test)["rmse"] ** 2
+            print(f"{scene}: mean squared error {error}", flush=True)
+            with self.subTest(scene):
+                self.assertLess(error["horizon"], 0.7 * error["hemisphere"])
+                self.assertLess(error["horizon"], 0.01)
 
 
 class CommandTest(unittest.TestCase):

@@ -30,6 +30,11 @@ void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
       .texture(Format::R11G11B10Float)
       .sameSizeAs("depth")
       .help("Radiance.");
+  d.read("ambientVisibility", &Ports::ambientVisibility)
+      .texture(Format::R8Unorm)
+      .sameSizeAs("depth")
+      .optional()
+      .help("Share of the ambient light that arrives.");
   d.update("color", &Ports::color)
       .texture(Format::Rgba16Float)
       .sizeOf("depth")
@@ -41,9 +46,13 @@ void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
           "was drawn stay as they were; black if nothing was there.");
 }
 
-Lighting::Lighting(gpu::Device& device)
-    : program_(device.program(
-          {.vertex = "gpu/fullscreen.vert", .fragment = "passes/lighting/lighting.frag"})) {}
+Lighting::Lighting(gpu::Device& device) {
+  gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
+                        .fragment = "passes/lighting/lighting.frag"};
+  program_ = device.program(desc);
+  desc.defines["AMBIENT_VISIBILITY"] = "1";
+  occludedProgram_ = device.program(desc);
+}
 
 void Lighting::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   gpu::Rendering rendering = context.device.render({
@@ -53,9 +62,10 @@ void Lighting::execute(graph::PassContext& context, const Params& params, const 
   });
   // The triangle lies at depth 0: it passes where something nearer was drawn, so that empty pixels
   // cost nothing. Depth is tested and read, never written.
-  rendering.use(*program_,
+  const gpu::ProgramPtr& program = ports.ambientVisibility ? occludedProgram_ : program_;
+  rendering.use(*program,
                 {.depthTest = true, .depthCompare = gpu::Compare::Less, .cull = gpu::Cull::None});
-  program_->set("ambientScale", params.ambient);
+  program->set("ambientScale", params.ambient);
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.buffer("LightBlock", ports.lights->block);
   rendering.texture("depth", *ports.depth, gpu::kNearest);
@@ -64,6 +74,8 @@ void Lighting::execute(graph::PassContext& context, const Params& params, const 
   rendering.texture("specular", *ports.specular, gpu::kNearest);
   rendering.texture("material", *ports.material, gpu::kNearest);
   rendering.texture("emissive", *ports.emissive, gpu::kNearest);
+  if (ports.ambientVisibility)
+    rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
   rendering.fullscreen();
 }
 

@@ -15,7 +15,7 @@ class Lighting {
   struct Ports {
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
-    graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive;
+    graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive, ambientVisibility;
     graph::InOut<gpu::Texture> color;
   };
 
@@ -24,7 +24,7 @@ class Lighting {
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr program_;
+  gpu::ProgramPtr program_, occludedProgram_;  // without and with ambientVisibility
 };
 
 }  // namespace lucerna::passes
