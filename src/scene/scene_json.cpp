@@ -114,7 +114,7 @@ Status readIncludes(const JsonValue& includes, const fs::path& folder, Scene& sc
     if (!part) continue;
     const auto [known, isNew] = materials.emplace(part, scene.materials.size());
     Scene copy = *part;
-    for (std::string& warning : copy.warnings) warning = node.name + ": " + warning;
+    for (std::string& warning : copy.warnings) warning.insert(0, node.name + ": ");
     readAnimation(entry, copy);
     append(scene, std::move(copy), node, isNew ? std::nullopt : std::optional(known->second));
     part->warnings.clear();

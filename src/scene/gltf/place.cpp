@@ -15,13 +15,13 @@ bool findPointer(const Json& here, const Json* wanted, std::string& pointer) {
   if (here.is_object()) {
     for (auto it = here.begin(); it != here.end(); ++it) {
       if (!findPointer(it.value(), wanted, pointer)) continue;
-      pointer = "/" + it.key() + pointer;
+      pointer.insert(0, "/" + it.key());
       return true;
     }
   } else if (here.is_array()) {
     for (std::size_t i = 0; i < here.size(); ++i) {
       if (!findPointer(here[i], wanted, pointer)) continue;
-      pointer = "/" + std::to_string(i) + pointer;
+      pointer.insert(0, "/" + std::to_string(i));
       return true;
     }
   }
