@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/random.hpp"
+#include "quick.hpp"
 #include "scene/bvh.hpp"
 
 namespace {
@@ -20,9 +21,7 @@ using namespace lucerna;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kBoxes = 100'000;
-constexpr int kViews = 1000;
 constexpr std::size_t kMoving = 1000;
-constexpr int kRounds = 30;
 constexpr int kViewsPerRound = 10;
 constexpr float kExtent = 1000;  // m, half the side of the world
 
@@ -63,13 +62,13 @@ void testEveryBox(const Frustum& frustum, const std::vector<Aabb>& boxes,
 }
 
 // True if the refitted tree answers like testing every box, in every round.
-bool benchRefit(std::vector<Aabb> boxes, Random& random) {
+bool benchRefit(std::vector<Aabb> boxes, Random& random, int rounds) {
   scene::Bvh refitted, built;
   refitted.build(boxes);
   std::vector<double> refitTimes, buildTimes;
   bool equal = true;
   int kept = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     std::vector<std::uint32_t> moved;
     std::vector<Aabb> to;
     for (std::size_t i = 0; i < kMoving; ++i) {
@@ -99,14 +98,16 @@ bool benchRefit(std::vector<Aabb> boxes, Random& random) {
   fmt::print(
       "{} of {} boxes move: refit {:.3f} ms, build {:.1f} ms, ratio {:.4f}; {} of {} rounds "
       "refitted; answers {}\n",
-      kMoving, kBoxes, refit, build, refit / build, kept, kRounds,
+      kMoving, kBoxes, refit, build, refit / build, kept, rounds,
       equal ? "equal in every view" : "DIFFER");
   return equal;
 }
 
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
+  const bool quick = isQuick(count, words);
+  const int views = quick ? 20 : 1000, rounds = quick ? 2 : 30;
   Random random(1);
   const std::vector<Aabb> boxes = makeBoxes(random);
 
@@ -127,7 +128,7 @@ int main() {
     std::vector<double> everyTimes, bvhTimes;
     std::vector<std::uint32_t> expected, found;
     std::size_t visible = 0;
-    for (int view = 0; view < kViews; ++view) {
+    for (int view = 0; view < views; ++view) {
       const Frustum frustum = makeView(random, range);
       expected.clear();
       found.clear();
@@ -143,10 +144,10 @@ int main() {
     }
     const double every = median(everyTimes), hierarchy = median(bvhTimes);
     fmt::print("{:>8.0f} {:>8.2f}% {:>14.3f} {:>10.4f} {:>7.3f}\n", range,
-               100.0 * static_cast<double>(visible) / (kViews * static_cast<double>(kBoxes)), every,
+               100.0 * static_cast<double>(visible) / (views * static_cast<double>(kBoxes)), every,
                hierarchy, hierarchy / every);
   }
   fmt::print("answers {}\n", equal ? "equal in every view" : "DIFFER");
-  const bool refitEqual = benchRefit(boxes, random);
+  const bool refitEqual = benchRefit(boxes, random, rounds);
   return equal && refitEqual ? 0 : 1;
 }

@@ -13,6 +13,7 @@
 #include "app/frame.hpp"
 #include "core/log.hpp"
 #include "image/metrics.hpp"
+#include "quick.hpp"
 
 namespace {
 
@@ -85,12 +86,13 @@ Status compare(int lights) {
 
 }  // namespace
 
-int main() {
+int main(int count, char** words) {
   log::setLevel(log::Level::Error);
   fmt::print("builtin:atrium, 640x360, median of {} interleaved frames\n", kFrames);
   fmt::print("{:>6} {:>12} {:>11} {:>8} {:>9} {:>15} {:>14}\n", "lights", "deferred/ms",
              "forward/ms", "ratio", "PSNR/dB", "deferred prims", "forward prims");
-  for (const int lights : {4, 16, 64}) {
+  const bool quick = isQuick(count, words);
+  for (const int lights : quick ? std::vector{4} : std::vector{4, 16, 64}) {
     if (const Status status = compare(lights); !status) {
       fmt::print(stderr, "{}\n", status.error().message);
       return 1;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/log.hpp"
+#include "quick.hpp"
 #include "scene/load.hpp"
 #include "trace/tile_tracer.hpp"
 
@@ -21,7 +22,7 @@ namespace {
 using namespace lucerna;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kRounds = 7, kSamples = 2, kTile = 16;
+constexpr int kSamples = 2, kTile = 16;
 constexpr uvec2 kSize{320, 180};
 constexpr std::size_t kPacket = 16;
 
@@ -153,7 +154,7 @@ Round trace(const trace::TracedScene& traced) {
   return {.rays = tracer.statistics(), .seconds = secondsSince(start)};
 }
 
-Status measure(const std::string& name) {
+Status measure(const std::string& name, int rounds) {
   LUCERNA_TRY(scene, scene::loadScene(name));
   scene::animate(scene, 0.f);
   trace::ReferenceSettings settings;
@@ -171,7 +172,7 @@ Status measure(const std::string& name) {
   const BareScene bare(scene);
   std::vector<double> ours, bares, others;
   std::uint64_t blocked = 0, count = 0;
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < rounds; ++round) {
     const Round r = trace(traced);
     count = r.rays.closest + r.rays.occlusion;
     ours.push_back(r.rays.seconds);
@@ -190,14 +191,17 @@ Status measure(const std::string& name) {
 
 int main(int count, char** words) {
   log::setLevel(log::Level::Error);
+  const bool quick = isQuick(count, words);
+  const int rounds = quick ? 1 : 7;
   std::vector<std::string> scenes(words + 1, words + count);
+  if (quick) scenes = {"builtin:cornell"};
   if (scenes.empty()) scenes = {"builtin:cornell", "builtin:atrium", "builtin:nightcity"};
   fmt::print("{}x{}, {} samples a pixel, lights and ambient occlusion, one thread, medians of {}\n",
-             kSize.x, kSize.y, kSamples, kRounds);
+             kSize.x, kSize.y, kSamples, rounds);
   fmt::print("{:24} {:>8} {:>9} {:>8} {:>6} {:>10}  {:>6}\n", "scene", "Mrays", "ours/s", "bare/s",
              "ratio", "other work", "met");
   for (const std::string& name : scenes)
-    if (const Status status = measure(name); !status) {
+    if (const Status status = measure(name, rounds); !status) {
       fmt::print(stderr, "{}\n", status.error().message);
       return 1;
     }
