@@ -4,6 +4,7 @@
 #include <span>
 
 #include "command_line.hpp"
+#include "core/check.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::cli {
@@ -11,12 +12,14 @@ namespace {
 
 constexpr const char* kLightKinds[] = {"directional", "point", "spot"};
 constexpr const char* kLightUnits[] = {"lux", "cd", "cd"};
-constexpr const char* kModels[] = {"phong", "metallic-roughness"};
+constexpr const char* kModels[] = {"phong", "metallic-roughness", "unlit", "specular-glossiness"};
 constexpr const char* kAlphaModes[] = {"opaque", "mask", "blend"};
 
 template <typename Enum>
 const char* nameIn(std::span<const char* const> names, Enum value) {
-  return names[static_cast<std::size_t>(value)];
+  const auto index = static_cast<std::size_t>(value);
+  CHECK(index < names.size(), "value {} has no name among {}", index, names.size());
+  return names[index];
 }
 
 Json vectorJson(vec3 v) {

@@ -46,6 +46,7 @@ TRIANGLES = {
     "gltf_features/emission_strength/14_emission_strength.gltf": 17280,
     "gltf_features/gpu_instancing/24_gpu_instancing.gltf": 7656770,  # with every instance
 }
+MODELS = {"phong", "metallic-roughness", "unlit", "specular-glossiness"}
 KENNEY_TRIANGLES = 21336  # all 37 models together
 CITY = pathlib.Path(__file__).resolve().parents[2] / "examples" / "city" / "city.json"
 CITY_GROUND_TRIANGLES = 12
@@ -73,7 +74,9 @@ class ScenesTest(unittest.TestCase):
             with self.subTest(name):
                 run = lucerna("info", path, "--json")
                 self.assertEqual(run.returncode, 0, run.stderr)
-                triangles = json.loads(run.stdout)["triangles"]
+                said = json.loads(run.stdout)
+                triangles = said["triangles"]
+                self.assertLessEqual({material["model"] for material in said["materials"]}, MODELS)
                 if name.startswith("kenney_city_kit/"):
                     kenney.append(triangles)
                 elif name in TRIANGLES:
