@@ -31,6 +31,7 @@ Stage stageOf(const std::string& type) {
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
             {{"file", ::testing::TempDir() + "lucerna-each-pass.png"}}};
+  if (type == "Fxaa") return {{"Cull", "GBuffer", "Lighting", "ToneMap", type}, "Fxaa.color"};
   if (type == "ShowGBuffer")
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
   if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())

@@ -5,6 +5,7 @@
 #include "passes/custom_shaders/custom_shaders.hpp"
 #include "passes/forward/forward.hpp"
 #include "passes/fullscreen/fullscreen.hpp"
+#include "passes/fxaa/fxaa.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/lighting/lighting.hpp"
 #include "passes/save_image/save_image.hpp"
@@ -42,6 +43,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ShowGBuffer>();
   registry.add<ShowBvh>();
   registry.add<SaveImage>();
+  registry.add<Fxaa>();
   registry.add(fullscreenType(registry.shaders()));
 }
 

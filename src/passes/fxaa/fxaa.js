@@ -1,0 +1,11 @@
+// The deferred picture with smooth edges.
+pipeline({name: "fxaa", output: "Fxaa.color"});
+
+pass("Cull");
+pass("GBuffer");
+pass("Lighting");
+pass("CustomShaders");
+pass("Background");
+pass("Transparency");
+pass("ToneMap");
+pass("Fxaa");
