@@ -32,6 +32,7 @@ struct Options {
 };
 
 Status checkOutput(const Options& options) {
+  LUCERNA_TRY_VOID(checkFolderOf(options.output, "-o"));
   const auto extension = std::filesystem::path(options.output).extension();
   if (extension == ".exr" || (extension == ".hdr" && options.layers.size() == 1)) return {};
   if (extension == ".hdr")
@@ -129,9 +130,12 @@ Result<int> reference(Options& options, bool json) {
                {"warnings", scene.warnings}});
   else
     log::info(
-        "wrote {} in {:.1f} s: {:.1f} samples a pixel, standard error {:.2g} in the median, "
-        "{:.2g} in 99 % of the pixels",
-        options.output, seconds.count(), picture.meanSamples, median, high);
+        "wrote {} in {:.1f} s: {:.1f} samples a pixel{}", options.output, seconds.count(),
+        picture.meanSamples,
+        std::isfinite(high)  // one sample says nothing of its error
+            ? fmt::format(", standard error {:.2g} in the median, {:.2g} in 99 % of the pixels",
+                          median, high)
+            : "");
   if (picture.cancelled)
     return error(ErrorKind::Cancelled, "cancelled; {} holds the samples made so far",
                  options.output);

@@ -105,6 +105,7 @@ class CommandTest(unittest.TestCase):
                 (("builtin:cornell", "-o", self.folder / "a.hdr", "--layers", "color,ao"), 2, "several layers"),
                 (("builtin:cornell", "-o", self.folder / "a.exr", "--layers", "colour"), 2, "did you mean"),
                 (("builtin:cornell", "-o", self.folder / "a.exr", "--focus-distance", 2), 2, "--lens-radius"),
+                (("builtin:cornell", "-o", self.folder / "no" / "a.exr"), 2, "folder"),
                 (("builtin:cornel", "-o", self.folder / "a.exr"), 3, "cornell"),
                 (("builtin:cornell", "-o", self.folder / "a.exr", "--camera", "none"), 2, "camera")):
             with self.subTest(arguments):
