@@ -84,7 +84,9 @@ TEST_F(RunWorker, TheDataAreNotToBlameForAnIncompleteInstallation) {
 }
 
 TEST_F(RunWorker, CancellingIsNoFault) {
-  // In a process of its own, since cancelling is for good.
+  // In a process of its own, since cancelling is for good; one that is started anew, since it makes
+  // a thread.
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
   EXPECT_EXIT(
       {
         Progress::catchInterrupt();
@@ -95,7 +97,7 @@ TEST_F(RunWorker, CancellingIsNoFault) {
         const WorkerAnswer given = answer("sleep 30");
         user.join();
         std::fprintf(stderr, "%s", given.status.error().message.c_str());
-        std::_Exit(static_cast<int>(given.status.error().kind));  // threads were not forked
+        std::_Exit(static_cast<int>(given.status.error().kind));
       },
       testing::ExitedWithCode(130), "a.obj: its reader was cancelled");
 }
