@@ -53,17 +53,25 @@ Result<std::optional<Image>> readMask(const Options& options, const Image& refer
   return std::optional<Image>(std::move(result));
 }
 
-// What is written must not replace what is compared, and needs a folder.
-Status checkOutput(const Options& options, const char* option, const std::string& path) {
+// What is written must not replace what is compared, or the other one.
+Status checkOutput(const Options& options, const char* option, const std::string& path,
+                   const std::string& other) {
   if (path.empty()) return {};
   LUCERNA_TRY_VOID(checkFolderOf(path, option));
-  for (const std::string& input : {options.reference, options.test, options.mask}) {
-    std::error_code missing;
-    if (std::filesystem::equivalent(path, input, missing))
-      return error(ErrorKind::Usage, "{}: '{}' is one of the pictures compared; name another",
-                   option, path);
-  }
-  return {};
+  return checkIsNone(path, option,
+                     std::vector{options.reference, options.test, options.mask, other});
+}
+
+// Encoded values have been through a tone map that linear ones have not.
+void warnOfKinds(const Options& options, const Image& reference, const Image& test) {
+  if ((reference.type() == ComponentType::F32) == (test.type() == ComponentType::F32)) return;
+  const std::string& encoded =
+      reference.type() == ComponentType::F32 ? options.test : options.reference;
+  log::warning(
+      "{} holds encoded values and the other picture linear ones; if a tone map made it, they are "
+      "not "
+      "alike: compare two EXR or two PNG files",
+      encoded);
 }
 
 app::Comparison measured(const Options& options, const Image& reference, const Image& test,
@@ -113,11 +121,12 @@ void print(const app::Comparison& result, bool json) {
 }
 
 Result<int> compare(const Options& options, bool json) {
-  LUCERNA_TRY_VOID(checkOutput(options, "--heatmap", options.heatmap));
-  LUCERNA_TRY_VOID(checkOutput(options, "--html", options.html));
+  LUCERNA_TRY_VOID(checkOutput(options, "--heatmap", options.heatmap, ""));
+  LUCERNA_TRY_VOID(checkOutput(options, "--html", options.html, options.heatmap));
   LUCERNA_TRY(reference, readImage(options.reference));
   LUCERNA_TRY(test, readImage(options.test));
   LUCERNA_TRY_VOID(checkSize(test, options.test, reference, options.reference));
+  warnOfKinds(options, reference, test);
   LUCERNA_TRY(mask, readMask(options, reference));
   const Image* maskImage = mask ? &*mask : nullptr;
   const app::Comparison result = measured(options, reference, test, maskImage);

@@ -7,6 +7,7 @@
 
 #include "app/prepare_scene.hpp"
 #include "command_line.hpp"
+#include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "image/image_file.hpp"
@@ -33,6 +34,8 @@ struct Options {
 
 Status checkOutput(const Options& options) {
   LUCERNA_TRY_VOID(checkFolderOf(options.output, "-o"));
+  LUCERNA_TRY_VOID(
+      checkIsNone(options.output, "-o", std::vector{options.render.scene, options.render.camera}));
   const auto extension = std::filesystem::path(options.output).extension();
   if (extension == ".exr" || (extension == ".hdr" && options.layers.size() == 1)) return {};
   if (extension == ".hdr")
@@ -123,6 +126,7 @@ Result<int> reference(Options& options, bool json) {
                {"layers", options.layers},
                {"lights", lightsOf(scene)},
                {"samples", picture.meanSamples},
+               {"cancelled", picture.cancelled},
                {"error", {{"median", median}, {"p99", high}}},
                {"rays", {{"closest", picture.rays.closest}, {"occlusion", picture.rays.occlusion}}},
                {"cpu_seconds", {{"rays", picture.rays.seconds}, {"all", picture.seconds}}},
@@ -136,10 +140,9 @@ Result<int> reference(Options& options, bool json) {
             ? fmt::format(", standard error {:.2g} in the median, {:.2g} in 99 % of the pixels",
                           median, high)
             : "");
-  if (picture.cancelled)
-    return error(ErrorKind::Cancelled, "cancelled; {} holds the samples made so far",
-                 options.output);
-  return 0;
+  if (!picture.cancelled) return 0;
+  log::error("cancelled; {} holds the samples made so far", options.output);
+  return static_cast<int>(ErrorKind::Cancelled);
 }
 
 void addQualityFlags(CLI::App& command, trace::ReferenceSettings& settings) {
@@ -194,7 +197,7 @@ void addReference(CommandLine& line) {
       addCommand(line, line.app, "reference", "trace the ground truth of a scene by rays",
                  [&line, options] { return reference(*options, line.talk.json); });
   command->add_option("SCENE", options->render.scene, sceneHelp())->required();
-  command->add_option("-o,--output", options->output, "out.exr, or out.hdr (color alone)")
+  command->add_option("-o,--output", options->output, "out.exr, or out.hdr (one layer)")
       ->required();
   addSceneFlags(*command, options->render);
   addQualityFlags(*command, options->reference);

@@ -9,6 +9,7 @@
 #include "app/frame_writer.hpp"
 #include "app/row_files.hpp"
 #include "command_line.hpp"
+#include "core/file.hpp"
 #include "core/log.hpp"
 #include "core/progress.hpp"
 #include "render_flags.hpp"
@@ -84,8 +85,14 @@ std::string whatWasWritten(const app::Session& session, const app::FrameWriter& 
 Result<int> render(const Options& options, bool json) {
   const auto start = std::chrono::steady_clock::now();
   LUCERNA_TRY(writer, app::FrameWriter::create(options.output, options.render));
-  const std::string& profilePath = options.render.profile;
-  if (!profilePath.empty()) LUCERNA_TRY_VOID(app::ProfileLog::checkPath(profilePath));
+  const app::RenderSettings& settings = options.render;
+  const std::string& profilePath = settings.profile;
+  const std::vector read{settings.scene, settings.pipeline, settings.camera, settings.cameraPath};
+  LUCERNA_TRY_VOID(checkIsNone(options.output.path, "-o", read));
+  if (!profilePath.empty()) {
+    LUCERNA_TRY_VOID(app::ProfileLog::checkPath(profilePath));
+    LUCERNA_TRY_VOID(checkIsNone(profilePath, "--profile", read));
+  }
   LUCERNA_TRY(session, app::openSession(options.render, writer.layers()));
   LUCERNA_TRY_VOID(
       app::checkRowFiles(session->pipeline, session->registry, writer.name(), options.render));

@@ -1,4 +1,4 @@
-// The deferred picture, darker towards its corners. Needs the plugin beside this file.
+// The deferred picture, darker towards its corners. Needs the plugin: --plugin vignette.so.
 pipeline({name: "vignette"});
 
 pass("Cull");

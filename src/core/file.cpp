@@ -139,9 +139,25 @@ bool isDeviceOrPipe(const fs::path& path) {
 Status checkFolderOf(const fs::path& path, std::string_view option) {
   const fs::path folder = path.parent_path();
   std::error_code noFolder;
-  if (folder.empty() || fs::is_directory(folder, noFolder)) return {};
-  return error(ErrorKind::Usage, "{}: the folder '{}' does not exist; make it first", option,
-               folder.string());
+  if (!folder.empty() && !fs::is_directory(folder, noFolder))
+    return error(ErrorKind::Usage, "{}: the folder '{}' does not exist; make it first", option,
+                 folder.string());
+  if (fs::is_directory(path, noFolder))
+    return error(ErrorKind::Usage, "{}: '{}' is a folder; name a file in it", option,
+                 path.string());
+  return {};
+}
+
+Status checkIsNone(const fs::path& path, std::string_view option,
+                   std::span<const std::string> files) {
+  for (const std::string& file : files) {
+    std::error_code missing;
+    if (!file.empty() && (fs::equivalent(path, file, missing) || path == file))
+      return error(ErrorKind::Usage,
+                   "{}: '{}' is also read or written otherwise; name another file", option,
+                   path.string());
+  }
+  return {};
 }
 
 Result<Bytes> readFile(const fs::path& path, std::uint64_t limit) {

@@ -21,8 +21,12 @@ Result<Bytes> readFile(const std::filesystem::path& path, std::uint64_t limit = 
 Result<std::string> readText(const std::filesystem::path& path, std::uint64_t limit = 64ull << 20);
 
 // Asks before long work: can a file stand there? ErrorKind::Usage, in the name of `option` ("-o"),
-// if its folder does not exist.
+// if its folder does not exist or it is one itself.
 Status checkFolderOf(const std::filesystem::path& path, std::string_view option);
+// ErrorKind::Usage if `path`, to be written for `option`, is one of the files given, under whatever
+// name; those that do not exist are none.
+Status checkIsNone(const std::filesystem::path& path, std::string_view option,
+                   std::span<const std::string> files);
 
 Status writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status writeText(const std::filesystem::path& path, std::string_view text);

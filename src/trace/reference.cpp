@@ -140,7 +140,7 @@ ReferencePicture Film::picture() const {
   for (int y = 0; y < size_.y; ++y)
     for (int x = 0; x < size_.x; ++x) {
       const PixelSum& pixel = pixels_[at({x, y})];
-      result.meanSamples += pixel.count / static_cast<double>(pixels_.size());
+      result.meanSamples += pixel.count;
       if (pixel.count == 0) continue;
       const auto put = [&](Image& to, glm::dvec3 sum) {
         for (int c = 0; c < 3; ++c)
@@ -156,6 +156,7 @@ ReferencePicture Film::picture() const {
             visibility_[at({x, y}) * result.visibility.size() + l] /
             static_cast<float>(pixel.count);
     }
+  result.meanSamples /= static_cast<double>(pixels_.size());
   return result;
 }
 
