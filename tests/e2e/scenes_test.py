@@ -76,7 +76,7 @@ class ScenesTest(unittest.TestCase):
                 self.assertEqual(run.returncode, 0, run.stderr)
                 said = json.loads(run.stdout)
                 triangles = said["triangles"]
-                self.assertLessEqual({material["model"] for material in said["materials"]}, MODELS)
+                self.assertLessEqual({material["model"] for material in said["material_list"]}, MODELS)
                 if name.startswith("kenney_city_kit/"):
                     kenney.append(triangles)
                 elif name in TRIANGLES:
