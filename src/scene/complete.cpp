@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "scene/fit_camera.hpp"
+#include "scene/load_parts.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::scene {
@@ -11,23 +12,6 @@ namespace {
 // A head-on white surface shows 0.8 of its albedo by the headlight and 0.2 by the ambient light.
 constexpr float kHeadlightBrightness = 0.8f;
 constexpr float kDefaultAmbient = 0.2f;
-
-void addDefaultMaterial(Scene& scene) {
-  std::uint32_t material = kNone;
-  for (Object& object : scene.objects) {
-    if (object.material != kNone) continue;
-    if (material == kNone) {
-      material = static_cast<std::uint32_t>(scene.materials.size());
-      Material grey;
-      grey.name = "default";
-      grey.albedo = vec4(vec3(0.8f), 1.f);
-      grey.metallic = 0.f;
-      grey.doubleSided = true;  // who states no material states no side either
-      scene.materials.push_back(grey);
-    }
-    object.material = material;
-  }
-}
 
 // A surface sends back no more than it gets; the G-buffer could not hold more either.
 void limitReflectance(Scene& scene) {
@@ -70,6 +54,23 @@ void addHeadlight(Scene& scene) {
 }
 
 }  // namespace
+
+void addDefaultMaterial(Scene& scene) {
+  std::uint32_t material = kNone;
+  for (Object& object : scene.objects) {
+    if (object.material != kNone) continue;
+    if (material == kNone) {
+      material = static_cast<std::uint32_t>(scene.materials.size());
+      Material grey;
+      grey.name = "default";
+      grey.albedo = vec4(vec3(0.8f), 1.f);
+      grey.metallic = 0.f;
+      grey.doubleSided = true;  // who states no material states no side either
+      scene.materials.push_back(grey);
+    }
+    object.material = material;
+  }
+}
 
 void complete(Scene& scene) {
   addDefaultMaterial(scene);

@@ -96,6 +96,7 @@ Result<Scene> readScene(const std::string& pathOrName, SceneLoad& load) {
     LUCERNA_TRY(whole, readWhole(pathOrName));
     if (whole.name.empty()) whole.name = std::move(scene.name);
     scene = std::move(whole);
+    addDefaultMaterial(scene);
     LUCERNA_TRY_VOID(countTextures(scene, pathOrName, load));
     moveShared(scene, load.meshes, load.textures);
     if (isFile) {

@@ -27,6 +27,10 @@ struct SceneLoad {
   OutsideFiles outsideFiles = OutsideFiles::Read;
 };
 
+// Grey, named "default", for objects without a material. A part of complete() that scene JSONs may
+// change the outcome of.
+void addDefaultMaterial(Scene& scene);
+
 // loadScene() without complete(); meshes and textures are in `load`.
 Result<Scene> readScene(const std::string& pathOrName, SceneLoad& load);
 

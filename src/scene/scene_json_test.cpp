@@ -50,6 +50,16 @@ class SceneJson : public testing::Test {
   TestFolder folder_;
 };
 
+TEST_F(SceneJson, ChangesTheMaterialOfAFileThatHasNone) {
+  write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write("bare.lucerna.json",
+        R"({"lucerna": "scene/1", "materials": {"default": {"albedo": [1, 0, 0]}}})");
+  const Result<Scene> scene = loadScene(path("bare.obj"));
+  ASSERT_TRUE(scene) << scene.error().message;
+  ASSERT_EQ(scene->materials.size(), 1u);
+  EXPECT_EQ(vec3(scene->materials[0].albedo), vec3(1, 0, 0));
+}
+
 TEST_F(SceneJson, OpacityOfOneLeavesTheAlphaModeAlone) {
   write("tri.mtl", "newmtl paint\nKd 0.5 0.5 0.5\nd 0.5\n");
   write("tri.lucerna.json", R"({"lucerna": "scene/1", "materials": {"paint": {"opacity": 1}}})");
