@@ -1,5 +1,5 @@
-// Rays against a scene, by Embree: whole streams of them, since packets of sixteen neighbours cost
-// a third of single rays. Every mesh is built once, however many objects show it.
+// Rays against a scene, by Embree: whole streams of them, in packets of sixteen neighbours. Every
+// mesh is built once, however many objects show it.
 #pragma once
 
 #include <array>

@@ -39,7 +39,6 @@ struct ReferenceSettings {
   bool shadows = true;   // false: light goes through everything, as where no pass casts shadows
   int bounces = 0;       // of diffuse light between surfaces
   int mirrors = 8;       // most reflections of a ray
-  float ambient = 1.f;   // factor on the scene's ambient light
   float aoRadius = 0.f;  // m, farthest occluder that counts; 0: ambient light is not occluded
   float lensRadius = 0.f, focusDistance = 1.f;  // m; radius 0: everything is sharp
   bool visibility = false;                      // also a picture of each light's visibility

@@ -45,7 +45,6 @@ TracedScene::TracedScene(const scene::Scene& s, const ReferenceSettings& chosen)
       ambient(s.ambient),
       viewFromClip(glm::inverse(chosen.view.clipFromView)) {
   for (const scene::PlacedLight& light : lights) ambient += light.ambient;
-  ambient *= chosen.ambient;
 }
 
 std::vector<ivec2> packedPixels(ivec2 first, ivec2 end) {

@@ -58,7 +58,9 @@ TEST_P(ScreenSpaceAo, ACornerIsDark) {
   const Image image = visibility(scene, {{"radius", 1.0}});
   int darkest = 255;
   for (int y = 0; y < image.height(); ++y) darkest = std::min(darkest, at(image, 48, y));
-  EXPECT_LT(darkest, 225);
+  // The horizon sees about half the sky; points behind the floor, steeply seen, count as another
+  // thing (the page's known artefacts).
+  EXPECT_LT(darkest, GetParam() == "horizon" ? 160 : 225);
   EXPECT_GT(darkest, 60);
   EXPECT_EQ(at(image, 48, 20), 255) << "the wall above";
 }
