@@ -161,6 +161,9 @@ class Device {
   // their bits in F32 (read them as<std::uint32_t>()). sRGB formats give the stored, encoded bytes.
   Image download(const Texture& texture, int layer = 0, bool flip = true);
   void copy(const Texture& from, const Texture& to);  // level 0, same desc
+  // Where the samples of a multisampled target lie in each pixel: (0, 0) is its lower left corner,
+  // (1, 1) its upper right one. In the order of texelFetch() of a sampler2DMS.
+  std::vector<vec2> samplePositions(const Texture& texture);
 
   Buffer createBuffer(std::span<const std::byte> data, std::string label);
   Buffer createBuffer(std::size_t bytes, std::string label);

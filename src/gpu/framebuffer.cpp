@@ -95,4 +95,21 @@ GLuint Device::Impl::framebuffer(const Targets& targets) {
   return id;
 }
 
+std::vector<vec2> Device::samplePositions(const Texture& texture) {
+  CHECK(texture.desc().kind == TextureKind::Multisample2D, "texture '{}' is not multisampled",
+        texture.label());
+  CHECK(!impl_->scope.open, "samplePositions() while a Rendering is open");
+  Targets targets;
+  if (info(texture.format()).kind == FormatClass::Depth)
+    targets.depth.texture = &texture;
+  else
+    targets.colors.push_back({&texture});
+  impl_->boundFramebuffer = impl_->framebuffer(targets);
+  glBindFramebuffer(GL_FRAMEBUFFER, impl_->boundFramebuffer);
+  std::vector<vec2> positions(static_cast<std::size_t>(texture.desc().samples));
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i), &positions[i].x);
+  return positions;
+}
+
 }  // namespace lucerna::gpu
