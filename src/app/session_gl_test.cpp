@@ -222,9 +222,8 @@ TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
 // that does not compile.
 TEST_F(SessionTest, AReloadedPipelineThatCannotBeDrawnLeavesTheLast) {
   const std::filesystem::path file = folder_ / "mine.js", shaders = folder_ / "shaders";
-  std::filesystem::create_directories(shaders / "passes/background");
-  ASSERT_TRUE(
-      writeText(shaders / "passes/background/background.frag", "void main() { nonsense; }"));
+  std::filesystem::create_directories(shaders / "render");
+  ASSERT_TRUE(writeText(shaders / "render/background.frag", "void main() { nonsense; }"));
   const auto write = [&](const std::string& text, int seconds) {
     ASSERT_TRUE(writeText(file, text));
     std::filesystem::last_write_time(

@@ -12,6 +12,7 @@ struct ViewValues {
   vec4 size;           // of the whole picture: width, height in pixels; 1 / width, 1 / height
   vec4 window;         // of what is drawn of it: its lower left corner, width, height in pixels
   vec4 viewportFromClip;  // xy: factors, zw: shifts (times w) that put the viewport's part in [-w, w]
+  vec4 clipPlaneW;     // gl_ClipDistance[0] of (p, 1), in m; (0, 0, 0, 1): nothing is cut
 };
 
 // How one material slot reads its texture.

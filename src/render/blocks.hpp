@@ -13,7 +13,7 @@ using glm::vec4;
 
 #include "render/blocks.glsl"
 
-static_assert(sizeof(ViewValues) == 4 * 64 + 4 * 16);
+static_assert(sizeof(ViewValues) == 4 * 64 + 5 * 16);
 static_assert(offsetof(ViewValues, eyeW) == 256);
 static_assert(sizeof(TextureUse) == 32);
 static_assert(sizeof(MaterialValues) == 512);

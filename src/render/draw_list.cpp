@@ -42,49 +42,12 @@ void bindTextures(gpu::Rendering& rendering, const GpuScene& gpuScene,
   bindSlot(rendering, gpuScene, "specularTexture", material.specularTexture, false);
 }
 
-std::uint32_t cornersOf(gpu::Topology topology) {
-  return topology == gpu::Topology::Triangles ? 3 : topology == gpu::Topology::Lines ? 2 : 1;
-}
-
 }  // namespace
-
-void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
-  list.batches.clear();
-  std::vector<gpu::IndexedDrawCommand> commands;
-  std::uint32_t lastMesh = scene::kNone;
-  for (std::uint32_t at = 0; at < list.objects.size(); ++at) {
-    const std::uint32_t index = list.objects[at];
-    const scene::Object& object = gpuScene.scene->objects[index];
-    const MeshRange& mesh = gpuScene.meshes[object.mesh];
-    const bool mirrored = gpuScene.mirrored[index];
-    if (list.batches.empty() || list.batches.back().material != object.material ||
-        list.batches.back().mirrored != mirrored || list.batches.back().topology != mesh.topology)
-      list.batches.push_back({.material = object.material,
-                              .mirrored = mirrored,
-                              .topology = mesh.topology,
-                              .firstCommand = static_cast<std::uint32_t>(commands.size())});
-    DrawBatch& batch = list.batches.back();
-    batch.primitives += mesh.indexCount / cornersOf(mesh.topology);
-    if (batch.commandCount > 0 && object.mesh == lastMesh) {
-      ++commands.back().instanceCount;
-      continue;
-    }
-    lastMesh = object.mesh;
-    ++batch.commandCount;
-    commands.push_back({.indexCount = mesh.indexCount,
-                        .instanceCount = 1,
-                        .firstIndex = mesh.firstIndex,
-                        .baseVertex = mesh.baseVertex,
-                        .baseInstance = at});
-  }
-  if (commands.empty()) return;
-  device.write(list.commands, std::as_bytes(std::span(commands)), "draw commands");
-  device.write(list.order, std::as_bytes(std::span(list.objects)), "DrawOrderBlock");
-}
 
 void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawList& list,
               gpu::RenderState state, const ProgramOf& programOf) {
   const bool cullBackFaces = state.cull == gpu::Cull::Back;
+  state.clipDistances = list.clipped ? 1 : 0;
   if (list.batches.empty()) return;
   rendering.buffer("ObjectBlock", gpuScene.objects);
   rendering.buffer("DrawOrderBlock", list.order);

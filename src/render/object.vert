@@ -45,4 +45,5 @@ void main() {
   objectPositionO = positionO;
 #endif
   gl_Position = windowPosition(view.viewFromWorld * position);
+  gl_ClipDistance[0] = dot(view.clipPlaneW, position);
 }

@@ -14,8 +14,8 @@ vec4 partFromClip(uvec2 size, const glm::dvec2& origin, const glm::dvec2& part) 
   return {vec2(picture / part), vec2((picture - 2. * origin - part) / part)};
 }
 
-vec4 windowFromClip(const ViewData& data) {
-  return partFromClip(data.size, glm::dvec2(data.window.origin), glm::dvec2(data.window.size));
+vec4 windowFromClip(uvec2 size, const Window& window) {
+  return partFromClip(size, glm::dvec2(window.origin), glm::dvec2(window.size));
 }
 
 vec4 viewportFromClip(const ViewData& data) {
@@ -27,28 +27,29 @@ vec4 viewportFromClip(const ViewData& data) {
 blocks::ViewValues viewValues(const ViewData& data) {
   const scene::View& view = data.view;
   const vec2 pixels(data.size);
-  const vec4 eyeW = view.orthographic ? vec4(glm::normalize(vec3(view.worldFromView[2])), 0.f)
-                                      : vec4(view.positionW(), 1.f);
   return {.viewFromWorld = view.viewFromWorld,
           .worldFromView = view.worldFromView,
           .clipFromView = view.clipFromView,
           .viewFromClip = mat4(glm::inverse(dmat4(view.clipFromView))),
-          .eyeW = eyeW,
+          .eyeW = view.eyeW(),
           .size = vec4(pixels, 1.f / pixels),
           .window = vec4(vec2(data.window.origin), vec2(data.window.size)),
-          .viewportFromClip = viewportFromClip(data)};
+          .viewportFromClip = viewportFromClip(data),
+          .clipPlaneW = view.clipPlaneW.value_or(vec4(0.f, 0.f, 0.f, 1.f))};
 }
 
 }  // namespace
 
-Frustum ViewData::frustumW() const {
-  const vec4 part = windowFromClip(*this);
+Frustum frustumW(const scene::View& view, uvec2 size, const Window& window) {
+  const vec4 part = windowFromClip(size, window);
   mat4 toWindow(1.f);
   toWindow[0].x = part.x;
   toWindow[1].y = part.y;
   toWindow[3].x = part.z;
   toWindow[3].y = part.w;
-  return frustumOf(toWindow * view.clipFromWorld());
+  Frustum frustum = frustumOf(toWindow * view.clipFromWorld());
+  if (view.clipPlaneW) frustum.planes[Frustum::kNear] = *view.clipPlaneW;
+  return frustum;
 }
 
 gpu::Rect viewportOf(uvec2 size, const Window& window, int maxSide) {

@@ -14,6 +14,10 @@ struct Window {
   uvec2 size{0};    // px
 };
 
+// What the view can see in a window of a picture of the given size. The near plane of what a mirror
+// shows is the mirror.
+Frustum frustumW(const scene::View& view, uvec2 size, const Window& window);
+
 struct ViewData {
   static constexpr const char* kPortName = "View";
   scene::View view;  // of the whole picture
@@ -24,7 +28,7 @@ struct ViewData {
   gpu::Rect viewport;
   gpu::Buffer block;  // ViewBlock
 
-  Frustum frustumW() const;  // of the window
+  Frustum frustumW() const { return render::frustumW(view, size, window); }
 };
 
 // In px from the window's lower left corner: the whole picture, so that a tile is rasterised as the

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace lucerna::scene {
 namespace {
@@ -43,6 +44,22 @@ void chooseDepth(View& view, const Camera& camera, const Aabb& box) {
   if (!(view.far > view.near)) view.far = view.near + size;
 }
 
+// p' = p - 2 (n.p + d) n
+mat4 reflectionIn(const vec4& planeW) {
+  const vec3 n(planeW);
+  mat4 m(1.f);
+  for (int column = 0; column < 4; ++column) m[column] -= vec4(2.f * planeW[column] * n, 0.f);
+  return m;
+}
+
+// The far plane beyond all that is up to `far` metres ahead, the picture the same.
+void seeAll(View& view, float far) {
+  view.far = view.orthographic ? std::max(view.far, far) : std::numeric_limits<float>::infinity();
+  const float near = view.near;
+  view.clipFromView[2].z = view.orthographic ? 1.f / (view.far - near) : 0.f;
+  view.clipFromView[3].z = view.orthographic ? view.far / (view.far - near) : near;
+}
+
 }  // namespace
 
 View viewOf(const Scene& scene, const Camera& camera, float aspect) {
@@ -76,6 +93,16 @@ View eyeView(const View& view, float offset, float convergence) {
   eye.viewFromWorld = glm::inverse(eye.worldFromView);
   eye.clipFromView[2].x -= view.clipFromView[0].x * offset / convergence;
   return eye;
+}
+
+View reflectedView(const View& view, vec4 planeW, float clearance, const Aabb& boundsW) {
+  const mat4 reflection = reflectionIn(planeW);
+  View reflected = view;
+  reflected.viewFromWorld = view.viewFromWorld * reflection;
+  reflected.worldFromView = reflection * view.worldFromView;
+  reflected.clipPlaneW = planeW - vec4(0.f, 0.f, 0.f, clearance);
+  seeAll(reflected, 1.01f * depthRange(reflected.viewFromWorld, boundsW).far);
+  return reflected;
 }
 
 }  // namespace lucerna::scene

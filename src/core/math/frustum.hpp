@@ -12,6 +12,7 @@ struct Frustum {
   // xyz: unit normal pointing inward; a point p is inside where dot(xyz, p) + w >= 0.
   // Order: left, right, bottom, top, near, far. An infinite far plane is (0, 0, 0, 1).
   std::array<vec4, 6> planes;
+  static constexpr std::size_t kNear = 4;
 };
 
 // Planes of clipFromSpace with clip z in [0, w] and depth reversed (near at z = w, far at z = 0),

@@ -2,8 +2,7 @@
 #pragma once
 
 #include "graph/pass_info.hpp"
-#include "render/gpu_scene.hpp"
-#include "render/view_data.hpp"
+#include "render/background_shading.hpp"
 
 namespace lucerna::passes {
 
@@ -20,11 +19,11 @@ class Background {
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit Background(gpu::Device& device);
+  explicit Background(gpu::Device& device) : shading_(device) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr color_, image_, cubeMap_;
+  render::BackgroundShading shading_;
 };
 
 }  // namespace lucerna::passes

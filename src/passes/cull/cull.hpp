@@ -29,11 +29,4 @@ class Cull {
   std::vector<std::uint32_t> visible_;  // kept for its memory
 };
 
-// The lists' orders. Opaque: by material, orientation, mesh, object, so that state changes least.
-void sortForState(const render::GpuScene& gpuScene, std::vector<std::uint32_t>& objects);
-// Transparent: farthest box centre first along the view axis, ties by object, so that equal input
-// gives equal order.
-void sortBackToFront(const render::GpuScene& gpuScene, const scene::View& view,
-                     std::vector<std::uint32_t>& objects);
-
 }  // namespace lucerna::passes
