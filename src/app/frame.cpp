@@ -39,10 +39,12 @@ void updateViews(Session& s) {
   const scene::View middle = scene::viewOf(s.scene, s.scene.cameras[s.camera], aspect);
   const StereoSettings& stereo = s.settings.stereo;
   s.views.resize(s.plan.places.size());
+  s.viewGroup.views.resize(static_cast<std::size_t>(s.plan.eyes()));
   for (std::size_t i = 0; i < s.views.size(); ++i) {
     const auto& [eye, tile] = s.plan.places[i];
     const float side = s.plan.eyes() == 1 ? 0.f : eye == 0 ? -0.5f : 0.5f;
     const scene::View view = scene::eyeView(middle, side * stereo.separation, stereo.convergence);
+    s.viewGroup.views[static_cast<std::size_t>(eye)] = view;
     // Windows count from the lower left corner.
     const ivec2 origin(tile.window.x, s.plan.picture.y - tile.window.y - s.plan.window.y);
     render::updateView(*s.device, s.views[i], view, s.plan.picture,
@@ -142,6 +144,7 @@ Status runSteps(Session& s, const graph::Executor::OnView& take) {
   graph::Imports shared;
   shared.set("scene", s.gpuScene);
   shared.set("lights", s.lights);
+  shared.set("views", s.viewGroup);
   std::vector<graph::Imports> views(s.views.size());
   for (std::size_t i = 0; i < views.size(); ++i) views[i].set("view", s.views[i]);
   const render::SceneChanges& changes = s.gpuScene.changes;

@@ -21,6 +21,8 @@
 #include "render/gpu_scene.hpp"
 #include "render/light_list.hpp"
 #include "render/view_data.hpp"
+#include "render/view_group.hpp"
+#include "render/view_group.hpp"
 
 namespace lucerna::app {
 
@@ -43,6 +45,7 @@ struct Session {
   render::LightList lights;
   ViewPlan plan;                        // follows from the pipeline and the size
   std::vector<render::ViewData> views;  // as plan.places
+  render::ViewGroup viewGroup;
   std::unique_ptr<graph::Executor> executor;
   std::vector<LayerSource> layers;  // where wantedLayers come from
 

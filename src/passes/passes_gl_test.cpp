@@ -27,6 +27,8 @@ Stage stageOf(const std::string& type) {
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
   if (type == "ScreenSpaceAo")
     return {{"Cull", "GBuffer", type, "Lighting", "ToneMap"}, "ToneMap.color"};
+  if (type == "ShadowMaps" || type == "ShadowedLighting")
+    return {{"Cull", "GBuffer", "ShadowMaps", "ShadowedLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "SaveImage"},
             "ToneMap.color",

@@ -10,10 +10,13 @@
 #include "passes/lighting/lighting.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
+#include "passes/shadow_maps/shadow_maps.hpp"
+#include "passes/shadowed_lighting/shadowed_lighting.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
 #include "passes/tone_map/tone_map.hpp"
 #include "passes/transparency/transparency.hpp"
+#include "render/view_group.hpp"
 
 // Made by the build from the shader files (cmake/embed_shaders.cmake).
 namespace lucerna::gpu {
@@ -29,12 +32,15 @@ void registerPasses(graph::Registry& registry) {
 
   registry.addResource<render::GpuScene>("scene", "Objects, meshes, materials, textures.");
   registry.addResource<render::ViewData>("view", "Where this picture is seen from.", true);
+  registry.addResource<render::ViewGroup>("views", "Where all pictures of a frame are seen from.");
   registry.addResource<render::LightList>("lights", "The lights that are on.");
 
   registry.add<Cull>();
   registry.add<GBuffer>();
   registry.add<ScreenSpaceAo>();
   registry.add<Lighting>();
+  registry.add<ShadowMaps>();
+  registry.add<ShadowedLighting>();
   registry.add<CustomShaders>();
   registry.add<Forward>();
   registry.add<Background>();

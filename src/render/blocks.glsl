@@ -65,3 +65,11 @@ struct LightValues {
   vec4 attenuation;    // constant, linear, quadratic; w: cosine of the outer cone, -2 without cone
   vec4 shape;          // 1 / (cosine of inner - outer cone), radius in m, angle in rad, unused
 };
+
+// Element of the storage block ShadowMapBlock (render/shadows.glsl).
+struct ShadowMapValues {
+  mat4 clipFromWorld;
+  vec4 texel;          // of size max(x w, y w w) in m at clip-space w; z: 1 / texels of a side
+  vec4 axisW;          // xyz: unit, towards the light along the map's depth
+  uvec4 place;         // layer; 1: of the lamps' texture
+};

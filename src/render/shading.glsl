@@ -62,12 +62,26 @@ vec3 ambientReflectance(Surface s) {
 // Factor on the ambient light; each pass that shades has it as a parameter.
 uniform float ambientScale = 1.0;
 
+#ifdef LIGHT_VISIBILITY
+// Share of a light (index as in LightBlock) that reaches the surface. Who defines the macro before
+// including this defines the function after.
+float lightVisibility(Surface s, uint light);
+#endif
+
+vec3 arrivingLight(Surface s, uint light) {
+  vec3 reflected = reflectedLight(s, light);
+#ifdef LIGHT_VISIBILITY
+  if (reflected != vec3(0.0)) reflected *= lightVisibility(s, light);
+#endif
+  return reflected;
+}
+
 vec3 shade(Surface s) {
   if (s.type == kTypeUnlit) return s.albedo;
   vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * ambientReflectance(s) * s.occlusion;
   // One plain loop: where pixels leave an inner loop at different lights, llvmpipe (Mesa 22.3) takes
   // the index for equal in all of them and reads the wrong light.
   for (uint i = 0u; i < lightCount.x; ++i)
-    if (mayLight(lights[i], s.positionW, s.normalW)) radiance += reflectedLight(s, i);
+    if (mayLight(lights[i], s.positionW, s.normalW)) radiance += arrivingLight(s, i);
   return radiance;
 }

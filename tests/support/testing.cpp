@@ -9,6 +9,7 @@
 #include "gpu/context.hpp"
 #include "graph/validate.hpp"
 #include "passes/register_passes.hpp"
+#include "render/view_group.hpp"
 
 namespace lucerna::testing {
 
@@ -104,6 +105,8 @@ Result<SceneRenderer::Output> SceneRenderer::render(const graph::Pipeline& pipel
   input.cut = true;
   input.shared.set("scene", gpuScene);
   input.shared.set("lights", lights);
+  const render::ViewGroup viewGroup{{sceneView}};
+  input.shared.set("views", viewGroup);
   input.views = views;
   Output output;
   LUCERNA_TRY_VOID(executor_.execute(input, [&](int, const gpu::Texture& texture) {

@@ -9,27 +9,7 @@ void Lighting::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("ambient", &Params::ambient).range(0, 100).help("Factor on the scene's ambient light.");
   d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
-  d.read("depth", &Ports::depth).texture(Format::Depth32F).help("Reversed depth.");
-  d.read("normal", &Ports::normal)
-      .texture(Format::Rg16Unorm)
-      .sameSizeAs("depth")
-      .help("View-space normal, octahedral.");
-  d.read("albedo", &Ports::albedo)
-      .texture(Format::Srgb8Alpha8)
-      .sameSizeAs("depth")
-      .help("Diffuse or base colour.");
-  d.read("specular", &Ports::specular)
-      .texture(Format::Srgb8Alpha8)
-      .sameSizeAs("depth")
-      .help("Specular and occlusion of ambient light.");
-  d.read("material", &Ports::material)
-      .texture(Format::Rgba8Uint)
-      .sameSizeAs("depth")
-      .help("Type, shininess or roughness, metallic.");
-  d.read("emissive", &Ports::emissive)
-      .texture(Format::R11G11B10Float)
-      .sameSizeAs("depth")
-      .help("Radiance.");
+  render::readGBuffer(d);
   d.read("ambientVisibility", &Ports::ambientVisibility)
       .texture(Format::R8Unorm)
       .sameSizeAs("depth")
@@ -68,12 +48,7 @@ void Lighting::execute(graph::PassContext& context, const Params& params, const 
   program->set("ambientScale", params.ambient);
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.buffer("LightBlock", ports.lights->block);
-  rendering.texture("depth", *ports.depth, gpu::kNearest);
-  rendering.texture("normal", *ports.normal, gpu::kNearest);
-  rendering.texture("albedo", *ports.albedo, gpu::kNearest);
-  rendering.texture("specular", *ports.specular, gpu::kNearest);
-  rendering.texture("material", *ports.material, gpu::kNearest);
-  rendering.texture("emissive", *ports.emissive, gpu::kNearest);
+  render::bindGBuffer(rendering, ports);
   if (ports.ambientVisibility)
     rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
   rendering.fullscreen();

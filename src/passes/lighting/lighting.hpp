@@ -1,7 +1,7 @@
 // Lighting: shades the G-buffer with all lights, one full-screen draw.
 #pragma once
 
-#include "graph/pass_info.hpp"
+#include "render/gbuffer_inputs.hpp"
 #include "render/light_list.hpp"
 #include "render/view_data.hpp"
 
@@ -12,10 +12,10 @@ class Lighting {
   struct Params {
     float ambient = 1.f;
   };
-  struct Ports {
+  struct Ports : render::GBufferInputs {
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
-    graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive, ambientVisibility;
+    graph::In<gpu::Texture> ambientVisibility;
     graph::InOut<gpu::Texture> color;
   };
 

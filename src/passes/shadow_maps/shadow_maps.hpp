@@ -1,0 +1,65 @@
+// ShadowMaps: what each light sees, once for all pictures of a frame.
+#pragma once
+
+#include <vector>
+
+#include "graph/pass_info.hpp"
+#include "render/draw_list.hpp"
+#include "render/light_list.hpp"
+#include "render/object_programs.hpp"
+#include "render/shadow_maps.hpp"
+#include "render/view_data.hpp"
+#include "render/view_group.hpp"
+
+namespace lucerna::passes {
+
+class ShadowMaps {
+ public:
+  enum class Method { Lispsm, Uniform, Cascades };
+  enum class Warp { Automatic, Set };
+  struct Params {
+    Method method = Method::Lispsm;
+    int size = 2048;  // texels
+    Warp warp = Warp::Automatic;
+    float warpStrength = 4.f;
+    int cascades = 4;
+    int localSize = 512;  // texels
+    int localLights = 64;
+  };
+  struct Ports {
+    graph::In<render::GpuScene> scene;
+    graph::In<render::LightList> lights;
+    graph::In<render::ViewGroup> views;
+    graph::Out<render::ShadowMaps> shadowMaps;
+  };
+
+  static void describe(graph::PassInfo<Params, Ports>& d);
+  explicit ShadowMaps(gpu::Device& device) : programs_(device, "render/depth.frag") {}
+  void execute(graph::PassContext& context, const Params& params, const Ports& ports);
+
+ private:
+  // What one map needs while it is drawn.
+  struct Drawing {
+    render::ViewData view;
+    render::DrawList list;
+  };
+
+  void plan(const Params& params, const Ports& ports);
+  void planDirectional(const Params& params, const Ports& ports, const Aabb& castersW,
+                       std::uint32_t light);
+  // Whether the light reaches what the views see.
+  bool planLocal(const Params& params, const Ports& ports, const Aabb& castersW,
+                 std::uint32_t light, bool mayHaveMaps);
+  void addMap(const Ports& ports, std::uint32_t light, const render::ShadowProjection& projection,
+              bool local);
+  void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
+            Drawing& drawing);
+
+  render::ObjectPrograms programs_;
+  std::vector<Drawing> drawings_;       // kept for their buffers
+  std::vector<std::uint32_t> visible_;  // kept for its memory
+  int directionalLayers_ = 0, localLayers_ = 0;
+  int leftOut_ = 0;  // most lamps in sight that the budget left without a map
+};
+
+}  // namespace lucerna::passes

@@ -1,0 +1,23 @@
+// Darkens a pixel of an object that was drawn by its own shader: nobody knows how that uses the light,
+// so the picture loses the share that a white Phong surface in its place would lose.
+//   AMBIENT_VISIBILITY  a texture says how much of the ambient light arrives
+// variant: AMBIENT_VISIBILITY=1
+#include "passes/shadowed_lighting/visibility.glsl"
+
+layout(location = 0) out vec4 factor;  // multiplies what is there
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  Surface s = shadowedSurface(pixel);
+  if (s.type != kTypeCustom) discard;
+  vec3 lit = ambientScale * ambientLight.rgb * s.occlusion;
+  vec3 shadowed = lit;
+  for (uint i = 0u; i < lightCount.x; ++i) {
+    if (!mayLight(lights[i], s.positionW, s.normalW)) continue;
+    LightSample light = sampleLight(lights[i], s.positionW);
+    vec3 diffuse = light.irradiance * max(dot(s.normalW, light.toLightW), 0.0) / kPi;
+    lit += diffuse;
+    shadowed += diffuse * shadowVisibility(i, s.positionW, s.normalW, light.toLightW);
+  }
+  factor = vec4(mix(vec3(1.0), shadowed / max(lit, 1e-9), greaterThan(lit, vec3(1e-9))), 1.0);
+}

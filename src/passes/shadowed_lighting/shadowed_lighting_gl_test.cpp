@@ -1,0 +1,227 @@
+// Shadows of known shape: where light arrives and where it does not, for each kind of light and
+// map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include "image/metrics.hpp"
+#include "support/testing.hpp"
+
+namespace lucerna {
+namespace {
+
+constexpr uvec2 kSize{65, 65};  // odd: the middle pixel looks along the axis
+constexpr float kWall = 6.f;    // m before the camera
+
+struct Case {
+  std::string name;
+  scene::LightKind kind;
+  std::string method = "lispsm";
+};
+
+std::vector<Case> cases() {
+  using enum scene::LightKind;
+  return {{"Lispsm", Directional},
+          {"Uniform", Directional, "uniform"},
+          {"Cascades", Directional, "cascades"},
+          {"Spot", Spot},
+          {"Point", Point}};
+}
+
+graph::Pipeline shadowRows(const std::string& method = "lispsm",
+                           std::vector<std::string> types = {"Cull", "GBuffer", "CustomShaders",
+                                                             "ShadowMaps", "ShadowedLighting"}) {
+  graph::Pipeline pipeline = testing::rows(types);
+  for (graph::PassRow& row : pipeline.passes)
+    if (row.type == "ShadowMaps") row.params["method"] = method;
+  return pipeline;
+}
+
+Image shadowed(const scene::Scene& scene, const graph::Pipeline& pipeline) {
+  return testing::valueOf(scene, pipeline, kSize, "ShadowedLighting.color");
+}
+
+void addLamp(scene::Scene& scene, scene::LightKind kind, vec3 eye, vec3 target) {
+  scene::Light light;
+  light.kind = kind;
+  light.intensity = kind == scene::LightKind::Directional ? kPi : 100.f;
+  light.outerCone = 1.f;
+  light.innerCone = 0.9f;
+  testing::addLight(scene, light, eye, target);
+}
+
+// A cube of the given side.
+void addCube(scene::Scene& scene, vec3 center, float side, std::uint32_t material = 0) {
+  scene.meshes.push_back(testing::cubeMesh());
+  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), material,
+                     glm::scale(glm::translate(mat4(1.f), center), vec3(side)));
+}
+
+// The pixel in which the camera of emptyScene() sees a point.
+ivec2 pixelOf(const scene::Scene& scene, vec3 pointW) {
+  const vec4 clip = viewOf(scene, scene.cameras[0], 1.f).clipFromWorld() * vec4(pointW, 1.f);
+  const vec2 uv = vec2(clip) / clip.w * vec2(0.5f, -0.5f) + 0.5f;
+  return ivec2(uv * vec2(kSize));
+}
+
+class Shadows : public ::testing::TestWithParam<Case> {
+ protected:
+  void TearDown() override { testing::expectNoDebugMessages(); }
+  float at(const Image& image, const scene::Scene& scene, vec3 pointW) const {
+    const ivec2 pixel = pixelOf(scene, pointW);
+    return testing::colorAt(image, pixel.x, pixel.y).y;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Of, Shadows, ::testing::ValuesIn(cases()),
+                         [](const auto& parameter) { return parameter.param.name; });
+
+// Neither acne nor anything else: a wall that nothing stands before is lit as Lighting lights it,
+// at every angle of the light.
+TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
+  for (const float degrees : {0.f, 20.f, 45.f, 70.f, 85.f, 89.f}) {
+    scene::Scene scene = testing::emptyScene();
+    testing::addWall(scene, kWall);
+    const float angle = degrees * kPi / 180.f;
+    const vec3 target(0, 0, -kWall);
+    addLamp(scene, GetParam().kind,
+            target + 4.f * vec3(0.8f * std::sin(angle), 0.6f * std::sin(angle), std::cos(angle)),
+            target);
+    updateTransforms(scene);
+    const Image plain = testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "Lighting"}),
+                                         kSize, "Lighting.color");
+    const Image found = shadowed(scene, shadowRows(GetParam().method));
+    const Image a = testing::asFloatRgb(plain), b = testing::asFloatRgb(found);
+    float worst = 0.f;
+    for (std::size_t i = 0; i < a.as<float>().size(); ++i)
+      worst = std::max(worst, std::abs(a.as<float>()[i] - b.as<float>()[i]));
+    EXPECT_LE(worst, 1.f / 255.f) << "light at " << degrees << " degrees";
+  }
+}
+
+// The shadow lies where straight lines from the light put it; beside it all is lit.
+TEST_P(Shadows, ACubeThrowsItsShadowWhereItBelongs) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  addCube(scene, {0, 0, -4}, 0.4f);
+  const vec3 eye(3, 1.5f, -1);  // and past the cube to the wall
+  addLamp(scene, GetParam().kind, eye, {0, 0, -4});
+  updateTransforms(scene);
+  const Image found = shadowed(scene, shadowRows(GetParam().method));
+  const vec3 along = vec3(0, 0, -4) - eye;
+  const vec3 middle = vec3(0, 0, -4) + along * ((kWall - 4.f) / -along.z);
+  EXPECT_EQ(at(found, scene, middle), 0.f);
+  for (const vec3 offset :
+       {vec3(0.9f, 0, 0), vec3(-0.9f, 0, 0), vec3(0, 0.7f, 0), vec3(0, -0.7f, 0)})
+    EXPECT_GT(at(found, scene, middle + offset), 0.01f);
+}
+
+// The trap: what throws the shadow is not in the picture.
+TEST_P(Shadows, CastersBehindTheCameraThrowShadows) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  addCube(scene, {0, 0, 2}, 0.5f);
+  addLamp(scene, GetParam().kind, {0, 0, 4}, {0, 0, -1});
+  updateTransforms(scene);
+  const Image found = shadowed(scene, shadowRows(GetParam().method));
+  EXPECT_EQ(testing::centerOf(found), vec3(0.f));
+  EXPECT_GT(at(found, scene, {2.3f, 2.3f, -kWall}), 0.01f);
+}
+
+TEST_P(Shadows, OnlyTheBlockedLightIsMissing) {
+  scene::Scene scene = testing::emptyScene();
+  scene.ambient = vec3(0.25f);
+  testing::addWall(scene, kWall);
+  addCube(scene, {0, 0, 2}, 0.5f);
+  addLamp(scene, scene::LightKind::Directional, {3, 0, 0}, {0, 0, -4});
+  updateTransforms(scene);
+  const vec3 before = testing::centerOf(shadowed(scene, shadowRows(GetParam().method)));
+  addLamp(scene, GetParam().kind, {0, 0, 4}, {0, 0, -1});
+  updateTransforms(scene);
+  EXPECT_EQ(testing::centerOf(shadowed(scene, shadowRows(GetParam().method))), before);
+}
+
+TEST_P(Shadows, LightShinesThroughHolesAndTranslucentSurfaces) {
+  for (const auto mode : {scene::AlphaMode::Mask, scene::AlphaMode::Blend}) {
+    scene::Scene scene = testing::emptyScene();
+    testing::addWall(scene, kWall);
+    scene::Material& material = scene.materials.emplace_back();
+    material.alphaMode = mode;
+    material.albedo.w = 0.3f;  // below the cutoff: a hole everywhere
+    addCube(scene, {0, 0, 2}, 0.5f, 1);
+    addLamp(scene, GetParam().kind, {0, 0, 4}, {0, 0, -1});
+    updateTransforms(scene);
+    EXPECT_GT(testing::centerOf(shadowed(scene, shadowRows(GetParam().method))).y, 0.01f);
+    scene.materials[1].alphaMode = scene::AlphaMode::Opaque;
+    EXPECT_EQ(testing::centerOf(shadowed(scene, shadowRows(GetParam().method))), vec3(0.f));
+  }
+}
+
+// A material's own shader that knows nothing of light: black in full shadow, and as it was without.
+TEST_P(Shadows, PixelsOfCustomShadersDarkenByTheDiffuseShare) {
+  const std::string shader = ::testing::TempDir() + "lucerna-unlit.frag";
+  std::ofstream(shader) << "#include \"render/custom_shader.glsl\"\n"
+                           "vec3 radianceOf(Surface s) { return vec3(1.0); }\n";
+  for (const float ambient : {0.f, 0.5f}) {
+    scene::Scene scene = testing::emptyScene();
+    scene.ambient = vec3(ambient);
+    scene::Material& wall = testing::addWall(scene, kWall);
+    wall.shader.file = shader;
+    addLamp(scene, GetParam().kind, {0, 0, 4}, {0, 0, -1});
+    updateTransforms(scene);
+    const auto picture = [&](const std::vector<std::string>& types) {
+      return testing::valueOf(scene, shadowRows(GetParam().method, types), kSize,
+                              types.back() + ".color");
+    };
+    const std::vector<std::string> own{"Cull", "GBuffer", "CustomShaders"};
+    const std::vector<std::string> all{"Cull", "GBuffer", "CustomShaders", "ShadowMaps",
+                                       "ShadowedLighting"};
+    const vec3 before = testing::centerOf(picture(own));
+    ASSERT_GT(before.x, 0.01f);
+    EXPECT_EQ(testing::centerOf(picture(all)), before);
+    addCube(scene, {0, 0, 2}, 0.5f, static_cast<std::uint32_t>(scene.materials.size()));
+    scene.materials.emplace_back();
+    updateTransforms(scene);
+    const vec3 after = testing::centerOf(picture(all));
+    if (ambient == 0.f) {
+      EXPECT_EQ(after, vec3(0.f));
+    } else {
+      EXPECT_GT(after.x, 0.01f * before.x);
+      EXPECT_LT(after.x, before.x);
+    }
+  }
+}
+
+// Only what lies between the lights and what is seen is drawn.
+TEST(ShadowMapsCost, CastersAreCulledFromTheLight) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  for (int i = 0; i < 40; ++i) addCube(scene, {20.f + static_cast<float>(i), 0, -4}, 0.5f);
+  addCube(scene, {0, 0, -4}, 0.5f);
+  addLamp(scene, scene::LightKind::Directional, {0, 3, 0}, {0, 0, -4});
+  updateTransforms(scene);
+  testing::SceneRenderer renderer(scene);
+  renderer.profiling = true;
+  const auto output = renderer.render(shadowRows(), kSize);
+  ASSERT_TRUE(output) << output.error().message;
+  const auto step =
+      std::ranges::find(output->profile.steps, "ShadowMaps", &graph::StepProfile::row);
+  ASSERT_NE(step, output->profile.steps.end());
+  EXPECT_EQ(step->counters.primitives, 2u * 12u) << "the wall and one cube";
+}
+
+TEST(ShadowMapsCost, LampsBeyondTheBudgetLightWithoutShadows) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  addCube(scene, {0, 0, 2}, 0.5f);
+  addLamp(scene, scene::LightKind::Point, {0, 0, 4}, {0, 0, -1});
+  updateTransforms(scene);
+  graph::Pipeline pipeline = shadowRows();
+  EXPECT_EQ(testing::centerOf(shadowed(scene, pipeline)), vec3(0.f));
+  pipeline.passes[3].params["localLights"] = std::int64_t{0};
+  EXPECT_GT(testing::centerOf(shadowed(scene, pipeline)).y, 0.01f);
+}
+
+}  // namespace
+}  // namespace lucerna

@@ -1,0 +1,65 @@
+#include "render/shadow_maps.hpp"
+
+#include <algorithm>
+
+#include "render/blocks.hpp"
+
+namespace lucerna::render {
+
+namespace {
+
+// Large enough for the layers that maps name; what is there already stays.
+void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, int side,
+         gpu::Texture& texture) {
+  int layers = 0;
+  for (const ShadowMaps::Map& map : shadowMaps.maps)
+    if (map.local == local) layers = std::max(layers, map.layer + 1);
+  if (layers == 0) side = layers = 1;
+  if (texture && texture.width() == side && texture.desc().layers >= layers) return;
+  texture = {};  // before the new one is made
+  texture = device.createTexture({.kind = gpu::TextureKind::Array2D,
+                                  .format = gpu::Format::Depth32F,
+                                  .width = side,
+                                  .height = side,
+                                  .layers = layers},
+                                 local ? "local shadow maps" : "directional shadow maps");
+}
+
+}  // namespace
+
+void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directionalSide,
+                      int localSide) {
+  fit(device, shadowMaps, false, directionalSide, shadowMaps.directional);
+  fit(device, shadowMaps, true, localSide, shadowMaps.local);
+  std::vector<blocks::ShadowMapValues> maps;
+  for (const ShadowMaps::Map& map : shadowMaps.maps) {
+    const gpu::Texture& texture = map.local ? shadowMaps.local : shadowMaps.directional;
+    const float texel = 1.f / static_cast<float>(texture.width());
+    maps.push_back({.clipFromWorld = map.projection.clipFromWorld(),
+                    .texel = vec4(map.projection.side * texel, texel, 0.f),
+                    .axisW = glm::transpose(map.projection.viewFromWorld)[2],
+                    .place = uvec4(map.layer, map.local ? 1 : 0, 0, 0)});
+  }
+  std::vector<uvec4> lights;
+  for (const ShadowMaps::Range& range : shadowMaps.ofLight)
+    lights.emplace_back(range.first, range.count, 0, 0);
+  // A block of no elements cannot be bound.
+  maps.resize(std::max<std::size_t>(maps.size(), 1));
+  lights.resize(std::max<std::size_t>(lights.size(), 1));
+  device.write(shadowMaps.mapBlock, std::as_bytes(std::span(maps)), "ShadowMapBlock");
+  device.write(shadowMaps.lightBlock, std::as_bytes(std::span(lights)), "ShadowLightBlock");
+}
+
+void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool filtered) {
+  // Beyond its border a map shows nothing, and all is lit.
+  const gpu::Sampler sampler{.filter = filtered ? gpu::Filter::Linear : gpu::Filter::Nearest,
+                             .u = gpu::Address::ClampToBorder,
+                             .v = gpu::Address::ClampToBorder,
+                             .compareGreaterEqual = true};
+  commands.buffer("ShadowMapBlock", shadowMaps.mapBlock);
+  commands.buffer("ShadowLightBlock", shadowMaps.lightBlock);
+  commands.texture("directionalShadowMaps", shadowMaps.directional, sampler);
+  commands.texture("localShadowMaps", shadowMaps.local, sampler);
+}
+
+}  // namespace lucerna::render

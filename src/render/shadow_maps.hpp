@@ -1,0 +1,40 @@
+// Shadow maps of many lights, as ShadowMaps makes them and render/shadows.glsl reads them.
+#pragma once
+
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "render/shadow_projection.hpp"
+
+namespace lucerna::render {
+
+// Light-space depth, reversed, in layers of two array textures: one resolution for directional
+// lights and one for lamps.
+struct ShadowMaps {
+  static constexpr const char* kPortName = "ShadowMaps";
+  struct Map {
+    ShadowProjection projection;
+    bool local = false;  // of a spot or point light: a layer of `local`, not of `directional`
+    int layer = 0;
+  };
+  struct Range {
+    std::uint32_t first = 0, count = 0;  // count 0: the light throws no shadow
+  };
+  std::vector<Map> maps;
+  // Of each light of the LightList. Where several maps show a point the first of them counts.
+  std::vector<Range> ofLight;
+  gpu::Texture directional, local;  // Depth32F arrays; of one texel where there is no map
+  gpu::Buffer mapBlock, lightBlock;
+};
+
+// Free at each edge of a map, in texels, so that filters of up to nine by nine stay inside it.
+inline constexpr int kShadowMargin = 5;
+
+// Makes textures of the given sides (texels) and the blocks for maps and ofLight. What the textures
+// show is up to the caller.
+void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directionalSide,
+                      int localSide);
+
+void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool filtered);
+
+}  // namespace lucerna::render

@@ -1,0 +1,181 @@
+#include "render/shadow_projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/convex_body.hpp"
+
+namespace lucerna::render {
+namespace {
+
+// The near plane of a lamp's map, in parts of its far plane's distance: reversed float depth
+// forgives it.
+constexpr float kNearShare = 1e-4f;
+
+// What is nearer than this part of the farthest distance does not count for the warp. A near plane
+// is chosen so that nothing is cut off, and the sharpness would all go to the air behind it.
+constexpr float kNearestShare = 0.005f;
+
+struct Range {
+  float low = std::numeric_limits<float>::infinity();
+  float high = -std::numeric_limits<float>::infinity();
+  void grow(float value) { low = std::min(low, value), high = std::max(high, value); }
+  float length() const { return high - low; }
+};
+
+Range along(vec3 axis, std::span<const vec3> points) {
+  Range range;
+  for (const vec3& point : points) range.grow(glm::dot(axis, point));
+  return range;
+}
+
+vec3 anyAcross(vec3 axis) {
+  const vec3 other = std::abs(axis.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0);
+  return glm::normalize(glm::cross(axis, other));
+}
+
+vec3 normalizedOr(vec3 v, vec3 otherwise) {
+  const float length = glm::length(v);
+  return length > 1e-4f ? v / length : otherwise;
+}
+
+// The view direction as the light sees it: what the map's second axis follows. In line with the
+// light it is the limit of what it is where the light comes from a little above.
+vec3 acrossLight(vec3 toLightW, const Viewer& viewer) {
+  const auto across = [&](vec3 v) { return v - glm::dot(v, toLightW) * toLightW; };
+  const vec3 up = glm::dot(viewer.forwardW, toLightW) < 0.f ? viewer.upW : -viewer.upW;
+  return normalizedOr(across(viewer.forwardW), normalizedOr(across(up), anyAcross(toLightW)));
+}
+
+// Rows: unit axes of the space.
+mat4 spaceOf(vec3 right, vec3 up, vec3 back, vec3 origin) {
+  const mat3 axes = glm::transpose(mat3(right, up, back));
+  mat4 result(axes);
+  result[3] = vec4(-(axes * origin), 1.f);
+  return result;
+}
+
+}  // namespace
+
+Viewer viewerOf(std::span<const scene::View> views) {
+  Viewer viewer{
+      .forwardW = vec3(0.f), .upW = vec3(0.f), .near = std::numeric_limits<float>::infinity()};
+  for (const scene::View& view : views) {
+    viewer.positionW += view.positionW() / static_cast<float>(views.size());
+    viewer.forwardW -= vec3(view.worldFromView[2]);
+    viewer.upW += vec3(view.worldFromView[1]);
+    viewer.near = std::min(viewer.near, std::max(view.near, 0.f));
+    viewer.orthographic = viewer.orthographic || view.orthographic;
+  }
+  viewer.forwardW = normalizedOr(viewer.forwardW, {0.f, 0.f, -1.f});
+  viewer.upW = normalizedOr(viewer.upW, {0.f, 1.f, 0.f});
+  return viewer;
+}
+
+std::vector<vec3> visibleBody(std::span<const scene::View> views, const Aabb& boxW,
+                              std::span<const vec4> furtherPlanes) {
+  std::vector<vec3> body;
+  for (const scene::View& view : views) {
+    std::vector<vec4> planes = planesOf(boxW);
+    const Frustum frustum = view.frustumW();
+    planes.insert(planes.end(), frustum.planes.begin(), frustum.planes.end());
+    planes.insert(planes.end(), furtherPlanes.begin(), furtherPlanes.end());
+    const std::vector<vec3> corners = cornersOf(planes);
+    body.insert(body.end(), corners.begin(), corners.end());
+  }
+  return body;
+}
+
+float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, const Viewer& viewer) {
+  if (viewer.orthographic) return 0.f;
+  const float sine = glm::length(glm::cross(directionW, viewer.forwardW));
+  const float depth = along(acrossLight(-directionW, viewer), bodyW).length();
+  const Range view = along(viewer.forwardW, bodyW);
+  const float eye = glm::dot(viewer.forwardW, viewer.positionW);
+  const float zn = std::max({view.low - eye, viewer.near, kNearestShare * (view.high - eye)});
+  const float zf = zn + depth * sine;
+  return depth * sine / (zn + std::sqrt(zn * zf));
+}
+
+// With t from 0 to 1 along the body and w = 1 + warp t, the second axis maps to
+// u = t (1 + warp) / w, which is t without warp, and the first is divided by w. This is the
+// perspective of the paper with n = 1 / warp bodies, written so that n may be infinite. Rays of
+// light keep their t, so along each of them depth stays linear.
+ShadowProjection directionalProjection(vec3 directionW, std::span<const vec3> bodyW,
+                                       const Aabb& castersW, const Viewer& viewer, float warp,
+                                       float margin) {
+  const vec3 back = -directionW;  // towards the light
+  const vec3 up = acrossLight(back, viewer), right = glm::cross(up, back);
+  ShadowProjection result{.viewFromWorld = spaceOf(right, up, back, viewer.positionW)};
+  std::vector<vec3> body;
+  for (const vec3& point : bodyW) body.emplace_back(result.viewFromWorld * vec4(point, 1.f));
+
+  const float least = 1e-4f * std::max(castersW.diagonal(), 1e-3f);
+  const Range length = along({0, 1, 0}, body);
+  const float depth = std::max(length.length(), least);
+  Range width, height;
+  for (const vec3& point : body) {
+    width.grow(point.x / (1.f + warp * (point.y - length.low) / depth));
+    height.grow(point.z - least);
+  }
+  height.grow(transformed(result.viewFromWorld, castersW).max.z + least);
+  const float half = std::max(0.5f * width.length(), least);
+  const float middle = 0.5f * (width.low + width.high);
+  const float inner = 1.f - 2.f * margin;
+
+  // w = offset + slope * y
+  const float slope = warp / depth, offset = 1.f - slope * length.low;
+  mat4& clip = result.clipFromView = mat4(0.f);
+  clip[1].w = slope;
+  clip[3].w = offset;
+  clip[0].x = inner / half;
+  clip[1].x = -inner * middle * slope / half;
+  clip[3].x = -inner * middle * offset / half;
+  clip[1].y = inner * (2.f * (1.f + warp) / depth - slope);
+  clip[3].y = inner * (-2.f * (1.f + warp) * length.low / depth - offset);
+  clip[2].z = 1.f / height.length();
+  clip[3].z = -height.low / height.length();
+  result.side = vec2(2.f * half, depth / (1.f + warp)) / inner;
+  return result;
+}
+
+std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
+                                                std::span<const scene::View> views,
+                                                const Aabb& boxW, float margin) {
+  const vec3 back = -pyramid.axisW, right = anyAcross(back), up = glm::cross(back, right);
+  ShadowProjection result{.viewFromWorld = spaceOf(right, up, back, pyramid.positionW)};
+
+  std::vector<vec4> planes;
+  const auto add = [&](vec3 inward, float distance) {
+    inward = glm::normalize(inward);
+    planes.emplace_back(inward, distance - glm::dot(inward, pyramid.positionW));
+  };
+  for (const vec3 side : {right, -right, up, -up}) add(side + pyramid.tangent * pyramid.axisW, 0.f);
+  if (!std::isinf(pyramid.reach)) add(back, pyramid.reach);
+  const std::vector<vec3> body = visibleBody(views, boxW, planes);
+  if (body.empty()) return std::nullopt;
+
+  const float farthest =
+      along(pyramid.axisW, body).high - glm::dot(pyramid.axisW, pyramid.positionW);
+  const float far = std::max(1.001f * farthest, 1e-6f);  // the farthest surfaces lie inside
+  const float near = kNearShare * far;
+  Range width, height;
+  for (const vec3& point : body) {
+    const vec3 p(result.viewFromWorld * vec4(point, 1.f));
+    const float distance = std::max(-p.z, near);
+    width.grow(std::clamp(p.x / distance, -pyramid.tangent, pyramid.tangent));
+    height.grow(std::clamp(p.y / distance, -pyramid.tangent, pyramid.tangent));
+  }
+  const auto widened = [&](Range& range) {
+    const float by = std::max(range.length() * margin / (1.f - 2.f * margin), 1e-4f);
+    range.low -= by, range.high += by;
+  };
+  widened(width);
+  widened(height);
+  result.clipFromView = frustumReversed(near * width.low, near * width.high, near * height.low,
+                                        near * height.high, near, far);
+  result.side = vec2(std::max(width.length(), height.length()), 0.f);
+  return result;
+}
+
+}  // namespace lucerna::render
