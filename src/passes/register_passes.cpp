@@ -8,6 +8,7 @@
 #include "passes/fxaa/fxaa.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/lighting/lighting.hpp"
+#include "passes/mirrors/mirrors.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
@@ -44,6 +45,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<CustomShaders>();
   registry.add<Forward>();
   registry.add<Background>();
+  registry.add<Mirrors>();
   registry.add<Transparency>();
   registry.add<ToneMap>();
   registry.add<ShowGBuffer>();

@@ -38,8 +38,8 @@ TEST(CullLists, HoldObjectsByTheirMaterialMirrorsApart) {
   EXPECT_THAT(lists.mirrors.objects, ElementsAre(3, 4));
 }
 
-// Until a pass reflects in them, mirrors show their own material.
-TEST(Mirrors, AreDrawnAsTheirOwnMaterial) {
+// Without a pass that reflects in them, mirrors show their own material.
+TEST(CullLists, LetMirrorsBeDrawnAsTheirOwnMaterial) {
   scene::Scene scene = testing::sampleScene();
   for (const auto& rows : {testing::kDeferredRows, testing::kForwardRows}) {
     const Image expected = testing::pictureOf(scene, testing::rows(rows), {160, 90});
