@@ -86,6 +86,14 @@ Result<CameraPath> CameraPath::fromJson(const std::string& text, const std::stri
   return path;
 }
 
+CameraPath CameraPath::through(std::span<const CameraPose> poses) {
+  CHECK(!poses.empty());
+  CameraPath path;
+  for (const CameraPose& pose : poses)
+    path.keys_.push_back({static_cast<double>(path.keys_.size()), pose});
+  return path;
+}
+
 void CameraPath::readKeyframes(const JsonValue& root) {
   root.require({"keyframes"});
   if (!root.has("keyframes")) return;

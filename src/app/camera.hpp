@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class CameraPath {
  public:
   static Result<CameraPath> read(const std::filesystem::path& path);
   static Result<CameraPath> fromJson(const std::string& text, const std::string& name);
+  // Through these, at least one, at the times 0, 1, 2, ...
+  static CameraPath through(std::span<const CameraPose> poses);
 
   // Before the first and after the last keyframe the pose stands still.
   CameraPose at(double time) const;

@@ -3,48 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/html.hpp"
-#include "core/math/math.hpp"
+#include "core/svg.hpp"
 
 namespace lucerna::app {
 namespace {
-
-using glm::dvec2;
 
 // Pixels.
 constexpr double kNameWidth = 220, kBarsWidth = 640, kRowHeight = 30, kBarHeight = 13;
 constexpr double kAxisWidth = 60, kColumnsWidth = 800, kChartHeight = 260, kWidest = 40;
 constexpr double kMargin = 20;
 constexpr std::size_t kMaxColumns = 400;
-
-// A round number of at least a third and at most all of `largest`: where the axis has its lines.
-double roundStep(double largest) {
-  const double power = std::pow(10, std::floor(std::log10(largest)));
-  for (const double digit : {5.0, 2.0, 1.0})
-    if (digit * power <= largest) return digit * power / 2;
-  return power;
-}
-
-std::string rectText(dvec2 corner, dvec2 size, std::string_view fill, const std::string& title) {
-  return fmt::format(
-      "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"><title>{}"
-      "</title></rect>\n",
-      corner.x, corner.y, size.x, size.y, fill, escapedXml(title));
-}
-
-std::string lineText(dvec2 from, dvec2 to, std::string_view attributes) {
-  return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>\n", from.x,
-                     from.y, to.x, to.y, attributes);
-}
-
-std::string svgText(double width, double height, const std::string& body) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\" width=\"{0}\" "
-      "height=\"{1}\" role=\"img\">\n{2}</svg>\n",
-      width, height, body);
-}
 
 // What each pass took in the frames [begin, end), as a mean: in the order of the summary.
 std::vector<double> columnOf(std::span<const graph::FrameProfile> frames,
@@ -67,9 +37,8 @@ std::string frameAxis(double largest, double width) {
   const double step = roundStep(largest);
   for (double ms = 0; ms <= largest; ms += step) {
     const double y = kMargin + kChartHeight * (1 - ms / largest);
-    body += lineText({kAxisWidth, y}, {width, y}, "class=\"axis\"");
-    body += fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"end\">{:g} ms</text>\n",
-                        kAxisWidth - 6, y + 4, ms);
+    body += svgLine({kAxisWidth, y}, {width, y}, "class=\"axis\"");
+    body += svgText({kAxisWidth - 6, y + 4}, "end", fmt::format("{:g} ms", ms));
   }
   return body;
 }
@@ -103,25 +72,22 @@ std::string passChart(const ProfileSummary& summary, std::span<const std::string
   double y = 4;
   for (std::size_t p = 0; p < summary.passes.size(); ++p, y += kRowHeight) {
     const PassCost& pass = summary.passes[p];
-    body += fmt::format("<text x=\"{}\" y=\"{:.2f}\" text-anchor=\"end\">{}</text>\n",
-                        kNameWidth - 8, y + 13, escapedXml(names[p]));
+    body += svgText({kNameWidth - 8, y + 13}, "end", names[p]);
     const auto bar = [&](const char* clock, const Milliseconds& time, std::string_view fill,
                          double top, double height) {
       const std::string title = fmt::format("{}: {} {:.3f} ms, median {:.3f} ms", names[p], clock,
                                             time.mean, time.median);
       const double width = kBarsWidth * time.mean / largest;
       const double median = kNameWidth + kBarsWidth * time.median / largest;
-      body += rectText({kNameWidth, top}, {width, height}, fill, title);
-      body += lineText({median, top - 1}, {median, top + height + 1}, "stroke=\"currentColor\"");
+      body += svgRect({kNameWidth, top}, {width, height}, fill, title);
+      body += svgLine({median, top - 1}, {median, top + height + 1}, "stroke=\"currentColor\"");
     };
     bar("GPU", pass.gpu, seriesColor(p), y, kBarHeight);
     bar("CPU", pass.cpu, "#999", y + kBarHeight + 1, kBarHeight / 2);
-    body += fmt::format(
-        "<text x=\"{:.2f}\" y=\"{:.2f}\">{:.2f} ms</text>\n",
-        kNameWidth + kBarsWidth * std::max(pass.gpu.mean, pass.gpu.median) / largest + 6, y + 11,
-        pass.gpu.mean);
+    const double end = kNameWidth + kBarsWidth * std::max(pass.gpu.mean, pass.gpu.median) / largest;
+    body += svgText({end + 6, y + 11}, "start", fmt::format("{:.2f} ms", pass.gpu.mean));
   }
-  return svgText(kNameWidth + kBarsWidth + 90, y + 4, body);
+  return svgDrawing(kNameWidth + kBarsWidth + 90, y + 4, body);
 }
 
 std::string frameChart(std::span<const graph::FrameProfile> frames, const ProfileSummary& summary,
@@ -144,18 +110,18 @@ std::string frameChart(std::span<const graph::FrameProfile> frames, const Profil
     for (std::size_t p = 0; p < column.gpuMs.size(); ++p) {
       const double height = kChartHeight * column.gpuMs[p] / largest;
       y -= height;
-      body += rectText({x, y}, {pitch * 0.9, height}, seriesColor(p),
-                       fmt::format("{}: {} {:.3f} ms", column.frames, names[p], column.gpuMs[p]));
+      body += svgRect({x, y}, {pitch * 0.9, height}, seriesColor(p),
+                      fmt::format("{}: {} {:.3f} ms", column.frames, names[p], column.gpuMs[p]));
     }
     x += pitch;
   }
   const auto label = [&](double at, const char* anchor, const graph::FrameProfile& frame) {
-    body += fmt::format("<text x=\"{:.2f}\" y=\"{}\" text-anchor=\"{}\">frame {}</text>\n", at,
-                        kMargin + kChartHeight + 16, anchor, frame.frame);
+    body +=
+        svgText({at, kMargin + kChartHeight + 16}, anchor, fmt::format("frame {}", frame.frame));
   };
   if (!drawn.empty()) label(kAxisWidth, "start", drawn.front());
   if (drawn.size() > 1) label(std::max(x, kAxisWidth + 130), "end", drawn.back());
-  return svgText(width, kMargin + kChartHeight + 24, body);
+  return svgDrawing(width, kMargin + kChartHeight + 24, body);
 }
 
 }  // namespace lucerna::app

@@ -5,30 +5,20 @@
 #include "app/profile_charts.hpp"
 #include "app/profile_summary.hpp"
 #include "core/html.hpp"
+#include "core/markdown.hpp"
+#include "core/svg.hpp"
 
 namespace lucerna::app {
 namespace {
 
 constexpr std::size_t kBarLength = 20;  // characters of the longest
 
-constexpr std::string_view kStyle = R"css(
-svg { display: block; max-width: 100%; height: auto; font: 12px system-ui, sans-serif; }
-svg text { fill: currentColor; } .axis { stroke: var(--line); }
-tfoot td { font-weight: 600; } i { display: inline-block; width: .8em; height: .8em; margin-right: .4em; }
-)css";
+constexpr std::string_view kStyle =
+    "tfoot td { font-weight: 600; } i { display: inline-block; width: .8em; height: .8em; "
+    "margin-right: .4em; }\n";
 
 double mebibytes(std::uint64_t bytes) {
   return static_cast<double>(bytes) / (1 << 20);
-}
-
-// Any text as Markdown that shows it as it is.
-std::string escapedMarkdown(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    if (std::string_view("\\`*_{}[]()<>#|~&!").find(c) != std::string_view::npos) result += '\\';
-    if (static_cast<unsigned char>(c) >= ' ') result += c;
-  }
-  return result;
 }
 
 std::string nameOf(const PassCost& pass, bool manyViews) {
@@ -125,8 +115,9 @@ std::string profileHtml(const ProfileLog& log) {
       escapedXml(whatWasMeasured(summary, log.subject())),
       escapedXml(howGpuTimeWasMeasured(log.subject())), htmlTable(summary, manyViews), kMemoryNote,
       passChart(summary, names), frameChart(log.frames(), summary, names));
-  return htmlText(
-      {.title = "Cost of a frame: " + log.subject().scene, .style = kStyle, .body = body});
+  return htmlText({.title = "Cost of a frame: " + log.subject().scene,
+                   .style = std::string(kSvgStyle) + std::string(kStyle),
+                   .body = body});
 }
 
 }  // namespace lucerna::app

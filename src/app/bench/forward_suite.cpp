@@ -1,0 +1,108 @@
+// Tables 4.3 and 4.4, and figure 4.2: forward shading against the deferred chain along a path.
+#include "app/bench/suite.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+constexpr int kFramesPerCamera = 4;  // along the path from one to the next
+
+const std::string kForward = "forward", kDeferred = "deferred";
+
+Chain chainOf(const std::string& name) {
+  Chain chain{{{"Cull"}}};
+  if (name == kForward)
+    chain.rows.push_back({"Forward"});
+  else
+    chain.rows.insert(chain.rows.end(), {{"GBuffer"}, {"Lighting"}, {"CustomShaders"}});
+  chain.rows.insert(chain.rows.end(), {{"Background"}, {"Transparency"}, {"ToneMap"}});
+  return chain;
+}
+
+// The samples of a name are in the order of the path, all rounds of a frame together.
+Status measure(Run& run) {
+  std::vector<std::size_t> variants;
+  std::vector<std::vector<std::string>> names;
+  for (const uvec2 size : run.extent.sizes)
+    for (const std::string& name : {kForward, kDeferred}) {
+      LUCERNA_TRY(variant, run.stage.add({.chain = chainOf(name), .size = size}));
+      variants.push_back(variant);
+      names.push_back({sizeName(size), name, run.scene});
+    }
+  const CameraPath path = pathThrough(run.cameras);
+  const int frames = kFramesPerCamera * (run.extent.cameras - 1) + 1;
+  for (int frame = 0; frame < frames; ++frame) {
+    run.stage.look(path.at(static_cast<double>(frame) / kFramesPerCamera));
+    LUCERNA_TRY_VOID(run.takeTurns(
+        variants, run.extent.rounds, 1.0 / frames, [&](std::size_t variant, const Sample& sample) {
+          Measurement& m = run.results.at(names[variant]);
+          m.add(sample.realMs, sample.cpuMs);
+          m.count("draws", static_cast<double>(sample.counters.draws));
+          m.count("primitives", static_cast<double>(sample.counters.primitives));
+        }));
+  }
+  return {};
+}
+
+// The median of each frame's rounds.
+std::vector<double> alongPath(const Measurement& m, int rounds) {
+  std::vector<double> frames;
+  const auto count = static_cast<std::size_t>(rounds);
+  for (std::size_t i = 0; i + count <= m.realMs.size(); i += count)
+    frames.push_back(spreadOf(std::span(m.realMs).subspan(i, count)).median);
+  return frames;
+}
+
+Table timesOf(const Results& results, const std::string& size) {
+  const std::string ratio = kForward + " / " + kDeferred;
+  return tableOf(size + ", ms", "chain", {kForward, kDeferred, ratio}, results.parts(2, {size}),
+                 [&](const std::string& row, const std::string& scene) {
+                   return row == ratio ? ratioText(results.times({size, kForward, scene}),
+                                                   results.times({size, kDeferred, scene}))
+                                       : spreadText(results.times({size, row, scene}));
+                 });
+}
+
+LinePlot pathPlot(const Results& results, const std::string& size, const std::string& chain) {
+  LinePlot plot{
+      .title = chain + " along the path, " + size,
+      .xLabel = "frame",
+      .yLabel = "ms",
+  };
+  for (const std::string& scene : results.parts(2, {size, chain})) {
+    Curve& curve = plot.curves.emplace_back(Curve{.name = scene});
+    for (const double ms : alongPath(*results.find({size, chain, scene}), results.rounds))
+      curve.points.emplace_back(static_cast<double>(curve.points.size()), ms);
+  }
+  return plot;
+}
+
+Report report(const Results& results) {
+  Report report{.title =
+                    "forward: forward against deferred shading (tables 4.3 and 4.4, figure 4.2)"};
+  report.blocks.emplace_back(
+      "Time of a whole frame in ms: median (quartiles) over all frames of a path through the "
+      "seeded "
+      "cameras. Both chains shade the same materials by the same code, lit by one light.");
+  const std::vector<std::string> sizes = results.parts(0);
+  for (const std::string& size : sizes) report.blocks.emplace_back(timesOf(results, size));
+  report.blocks.emplace_back(
+      drawsTable(results, sizes.front(), "chain", {kForward, kDeferred}, results.parts(2)));
+  for (const std::string& size : sizes)
+    for (const std::string& chain : {kForward, kDeferred})
+      report.blocks.emplace_back(pathPlot(results, size, chain));
+  return report;
+}
+
+}  // namespace
+
+Suite forwardSuite() {
+  return {.name = "forward",
+          .summary = "forward against deferred shading along a path (tables 4.3, 4.4, figure 4.2)",
+          .scenes = thesisScenes(),
+          .full = {.sizes = {{800, 600}, {1366, 768}}, .cameras = 13, .rounds = 3},
+          .quick = {.sizes = {{320, 240}, {546, 307}}, .cameras = 4, .rounds = 2},
+          .measure = measure,
+          .report = report};
+}
+
+}  // namespace lucerna::app::bench

@@ -1,0 +1,168 @@
+// Tables 4.5 and 4.6, and figure 4.3: what every pass takes, in two resolutions.
+#include <algorithm>
+#include <map>
+
+#include "app/bench/suite.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+// The share of the sight that surfaces darken each other over, and the lens by the sight: what is
+// infinitely far is then blurred over a fiftieth of the picture's height.
+constexpr float kAoRadius = 0.1f, kLensRadius = 0.01f;
+
+Row row(const char* pass, std::vector<std::string> settings = {}) {
+  return {.pass = pass, .settings = std::move(settings)};
+}
+
+// All passes of system A, with the thesis' own methods where there are several.
+Chain thesisChain(float sight) {
+  return {
+      {row("Cull"), row("GBuffer"),
+       row("ScreenSpaceAo", {"method=hemisphere", "blur=box", "samples=30",
+                             fmt::format("radius={}", kAoRadius * sight)}),
+       row("CustomShaders"), row("ShadowMaps", {"method=lispsm", "size=2048"}),
+       row("ShadowedLighting"), row("Background"), row("Mirrors"), row("Transparency"),
+       row("GeometrySamples"), row("Sraa"),
+       row("DepthOfField", {"method=separable", fmt::format("lensRadius={}", kLensRadius * sight),
+                            fmt::format("focusDistance={}", sight)}),
+       row("ToneMap")}};
+}
+
+// What can stand in their place.
+Chain otherChain(float sight) {
+  return {{row("Cull"), row("GBuffer"),
+           row("ScreenSpaceAo", {"method=horizon", fmt::format("radius={}", kAoRadius * sight)}),
+           row("Lighting"), row("CustomShaders"), row("Background"), row("Transparency"),
+           row("DepthOfField", {"method=gather", fmt::format("lensRadius={}", kLensRadius * sight),
+                                fmt::format("focusDistance={}", sight)}),
+           row("ToneMap"), row("Fxaa")}};
+}
+
+const std::string kFrame = "whole frame";  // of the thesis' chain
+// What the tables call rows of the other chain; they do not show the rest, which both have.
+const std::map<std::string, std::string> kOtherRows{{"ScreenSpaceAo", "ScreenSpaceAo, horizon"},
+                                                    {"Lighting", "Lighting"},
+                                                    {"DepthOfField", "DepthOfField, gather"},
+                                                    {"Fxaa", "Fxaa"}};
+
+std::string labelOf(const std::string& row, bool other) {
+  if (other) return kOtherRows.contains(row) ? kOtherRows.at(row) : "";
+  return row == "ScreenSpaceAo"  ? "ScreenSpaceAo, hemisphere"
+         : row == "DepthOfField" ? "DepthOfField, separable"
+                                 : row;
+}
+
+// Cost: graph::StepProfile or graph::FrameProfile.
+template <typename Cost>
+void add(Measurement& m, const Cost& cost) {
+  m.add(cost.gpuMs, cost.cpuMs);
+  m.count("draws", static_cast<double>(cost.counters.draws));
+  m.count("primitives", static_cast<double>(cost.counters.primitives));
+  m.count("texture_bytes", static_cast<double>(cost.textureBytes));
+}
+
+Status measure(Run& run) {
+  struct Lane {
+    std::string size;
+    bool other = false;
+  };
+  std::vector<std::size_t> variants;
+  std::vector<Lane> lanes;
+  for (const uvec2 size : run.extent.sizes)
+    for (const bool other : {false, true}) {
+      const float sight = run.sight();
+      const Chain chain = other ? otherChain(sight) : thesisChain(sight);
+      LUCERNA_TRY(variant, run.stage.add({.chain = chain, .size = size, .profiled = true}));
+      variants.push_back(variant);
+      lanes.push_back({sizeName(size), other});
+    }
+  for (const SeededCamera& camera : run.cameras) {
+    run.stage.look(camera.pose);
+    LUCERNA_TRY_VOID(run.takeTurns(
+        variants, run.extent.rounds, 1.0 / static_cast<double>(run.cameras.size()),
+        [&](std::size_t variant, const Sample& sample) {
+          const Lane& lane = lanes[variant];
+          for (const graph::StepProfile& step : sample.profile.steps)
+            if (const std::string label = labelOf(step.row, lane.other); !label.empty())
+              add(run.results.at({lane.size, label, run.scene}), step);
+          if (!lane.other) add(run.results.at({lane.size, kFrame, run.scene}), sample.profile);
+        }));
+  }
+  return {};
+}
+
+// The passes of the thesis' chain that take longest.
+std::vector<std::string> largestPasses(const Results& results, const std::string& size) {
+  constexpr std::size_t kMost = 6;
+  std::vector<std::string> passes = results.parts(1, {size});
+  std::erase_if(passes, [](const std::string& label) {
+    return label == kFrame ||
+           std::ranges::any_of(kOtherRows, [&](const auto& row) { return row.second == label; });
+  });
+  const auto time = [&](const std::string& pass) {
+    return -spreadOf(results.times({size, pass})).median;
+  };
+  std::ranges::stable_sort(passes, {}, time);
+  passes.resize(std::min(passes.size(), kMost));
+  return passes;
+}
+
+BarPlot barsOf(const Results& results, const std::string& size) {
+  BarPlot plot{.title = "A frame at " + size + ", medians",
+               .unit = "ms",
+               .rows = results.parts(2, {size}),
+               .parts = largestPasses(results, size)};
+  for (const std::string& scene : plot.rows) {
+    std::vector<double>& values = plot.values.emplace_back();
+    double rest = spreadOf(results.times({size, kFrame, scene})).median;
+    for (const std::string& pass : plot.parts) {
+      values.push_back(spreadOf(results.times({size, pass, scene})).median);
+      rest -= values.back();
+    }
+    values.push_back(std::max(rest, 0.0));
+  }
+  plot.parts.emplace_back("all others");
+  return plot;
+}
+
+Report report(const Results& results) {
+  Report report{.title = "passes: the cost of every pass (tables 4.5 and 4.6, figure 4.3)"};
+  if (results.measurements.empty()) return report;
+  report.blocks.emplace_back(
+      "Time in ms: median (quartiles) over all cameras and rounds. Below the whole frame stand the "
+      "passes of a second chain, which is drawn in turn with it: Lighting without shadows, other "
+      "methods of ScreenSpaceAo and DepthOfField, and Fxaa. Radius, lens and focus follow each "
+      "scene's scale.");
+  const std::vector<std::string> sizes = results.parts(0);
+  const std::vector<std::string> passes = results.parts(1), scenes = results.parts(2);
+  for (const std::string& size : sizes)
+    report.blocks.emplace_back(tableOf(size + ", ms", "pass", passes, scenes,
+                                       [&](const std::string& pass, const std::string& scene) {
+                                         return spreadText(results.times({size, pass, scene}));
+                                       }));
+  if (sizes.size() > 1)
+    report.blocks.emplace_back(
+        tableOf(sizes.back() + " against " + sizes.front() + ", ratio of medians", "pass", passes,
+                scenes, [&](const std::string& pass, const std::string& scene) {
+                  return ratioText(results.times({sizes.back(), pass, scene}),
+                                   results.times({sizes.front(), pass, scene}));
+                }));
+  report.blocks.emplace_back(drawsTable(results, sizes.front(), "pass", passes, scenes));
+  for (const std::string& size : sizes) report.blocks.emplace_back(barsOf(results, size));
+  return report;
+}
+
+}  // namespace
+
+Suite passesSuite() {
+  return {.name = "passes",
+          .summary = "time of every pass, two resolutions (tables 4.5, 4.6)",
+          .scenes = thesisScenes(),
+          .full = {.sizes = {{800, 600}, {1600, 1200}}, .cameras = 5, .rounds = 3},
+          .quick = {.sizes = {{320, 240}, {640, 480}}, .cameras = 1, .rounds = 2},
+          .measure = measure,
+          .report = report};
+}
+
+}  // namespace lucerna::app::bench

@@ -1,0 +1,69 @@
+// Tables and drawings made of what was measured, as Markdown and as a page that stands alone.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "app/bench/results.hpp"
+#include "app/bench/statistics.hpp"
+
+namespace lucerna::app::bench {
+
+// Every row has as many cells as the head.
+struct Table {
+  std::string title{};
+  std::vector<std::string> head{};
+  std::vector<std::vector<std::string>> rows{};
+};
+// corner: what stands over the rows' names.
+Table tableOf(
+    std::string title, std::string corner, const std::vector<std::string>& rows,
+    const std::vector<std::string>& columns,
+    const std::function<std::string(const std::string& row, const std::string& column)>& cell);
+
+// Draws and primitives of the median frame: of the measurements named {size, row, scene}.
+Table drawsTable(const Results& results, const std::string& size, std::string corner,
+                 const std::vector<std::string>& rows, const std::vector<std::string>& scenes);
+
+struct Curve {
+  std::string name{};
+  std::vector<glm::dvec2> points{};  // x rising
+};
+struct LinePlot {
+  std::string title{}, xLabel{}, yLabel{};
+  bool logarithmic = false;  // both axes, where all values are above 0; else from 0
+  std::vector<Curve> curves{};
+};
+
+// A bar of parts for each row.
+struct BarPlot {
+  std::string title{}, unit{};
+  std::vector<std::string> rows{}, parts{};
+  std::vector<std::vector<double>> values{};  // of each row, of each part
+};
+
+using Block = std::variant<std::string, Table, LinePlot, BarPlot>;  // text: one paragraph
+
+struct Report {
+  std::string title{};
+  std::vector<Block> blocks{};
+};
+
+// "12.3 (11.9 to 12.8)": median and quartiles with three digits that count. One sample stands
+// alone;
+// "-" is none.
+std::string spreadText(std::span<const double> samples);
+std::string numberText(double value);  // three digits that count
+// "1.45": how many times as large the median of `samples` is as that of `baseline`.
+std::string ratioText(std::span<const double> samples, std::span<const double> baseline);
+
+std::string svgOf(const LinePlot& plot);
+std::string svgOf(const BarPlot& plot);
+
+// What all suites have in common comes first: the context and what was left out.
+std::string benchMarkdown(const std::vector<Results>& results, const std::vector<Report>& reports);
+std::string benchHtml(const std::vector<Results>& results, const std::vector<Report>& reports);
+
+}  // namespace lucerna::app::bench

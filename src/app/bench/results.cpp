@@ -1,0 +1,119 @@
+#include "app/bench/results.hpp"
+
+#include <fmt/chrono.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <ctime>
+#include <fstream>
+
+#include "core/version.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+std::string nameOfCpu() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name"))
+      return line.substr(std::min(line.find(':') + 2, line.size()));
+  return "unknown";
+}
+
+std::string listed(const std::vector<double>& values) {
+  std::string text;
+  for (const double value : values)
+    text += fmt::format("{}{:.2f}", text.empty() ? "" : ", ", value);
+  return text;
+}
+
+bool beginsWith(const std::vector<std::string>& name, const std::vector<std::string>& begin) {
+  return name.size() >= begin.size() && std::equal(begin.begin(), begin.end(), name.begin());
+}
+
+}  // namespace
+
+void Measurement::count(std::string_view counter, double value) {
+  auto found = std::ranges::find(counters, counter, &Counter::name);
+  if (found == counters.end()) found = counters.insert(found, {std::string(counter), {}});
+  found->samples.push_back(value);
+}
+
+const std::vector<double>& Measurement::samples(std::string_view counter) const {
+  static const std::vector<double> none;
+  const auto found = std::ranges::find(counters, counter, &Counter::name);
+  return found == counters.end() ? none : found->samples;
+}
+
+std::vector<std::pair<std::string, std::string>> Context::described() const {
+  return {{"date", date},
+          {"Lucerna", fmt::format("{}, {} build", version, build)},
+          {"CPU", fmt::format("{}, {} cores, load {}", cpu, cores, listed(load))},
+          {"OpenGL", driver},
+          {"time of a pass", timers == "gpu-timer"
+                                 ? "by the GPU's timer"
+                                 : "by the CPU's clock, the GPU's work finished before and after"},
+          {"seed", fmt::format("{}{}", seed, quick ? "; measured quickly (--quick)" : "")}};
+}
+
+Context contextOfMachine() {
+  Context context;
+  context.date = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  context.version = kVersion;
+#ifdef NDEBUG
+  context.build = "release";
+#else
+  context.build = "debug";
+#endif
+  context.cpu = nameOfCpu();
+  context.cores = static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+  std::array<double, 3> load{};
+  const int known = getloadavg(load.data(), static_cast<int>(load.size()));
+  context.load.assign(load.begin(), load.begin() + std::max(known, 0));
+  return context;
+}
+
+Measurement& Results::at(const std::vector<std::string>& name) {
+  const auto found = std::ranges::find(measurements, name, &Measurement::name);
+  if (found != measurements.end()) return *found;
+  return measurements.emplace_back(Measurement{.name = name});
+}
+
+const Measurement* Results::find(const std::vector<std::string>& name) const {
+  const auto found = std::ranges::find(measurements, name, &Measurement::name);
+  return found == measurements.end() ? nullptr : &*found;
+}
+
+std::vector<double> Results::times(const std::vector<std::string>& begin) const {
+  std::vector<double> all;
+  for (const Measurement& m : measurements)
+    if (beginsWith(m.name, begin)) all.insert(all.end(), m.realMs.begin(), m.realMs.end());
+  return all;
+}
+
+std::vector<double> Results::samples(const std::vector<std::string>& begin,
+                                     std::string_view counter) const {
+  std::vector<double> all;
+  for (const Measurement& m : measurements)
+    if (const auto& own = m.samples(counter); beginsWith(m.name, begin))
+      all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+void Results::note(const std::string& text) {
+  if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
+}
+
+std::vector<std::string> Results::parts(std::size_t place,
+                                        const std::vector<std::string>& begin) const {
+  std::vector<std::string> found;
+  for (const Measurement& m : measurements)
+    if (m.name.size() > place && beginsWith(m.name, begin) &&
+        std::ranges::find(found, m.name[place]) == found.end())
+      found.push_back(m.name[place]);
+  return found;
+}
+
+}  // namespace lucerna::app::bench

@@ -1,0 +1,76 @@
+// What a suite measured, on what machine. Nothing is made of it yet: report.hpp does that.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lucerna::app::bench {
+
+// Exact counts and errors: one a frame, or one a camera.
+struct Counter {
+  std::string name;
+  std::vector<double> samples;
+};
+
+struct Measurement {
+  // From the general to the special, as the suite says: {"800x600", "GBuffer", "atrium"}.
+  std::vector<std::string> name{};
+  std::vector<double> realMs{};  // one a frame, until the GPU has finished
+  std::vector<double> cpuMs{};   // one a frame, until the commands are given
+  std::vector<Counter> counters{};
+
+  void add(double real, double cpu) {
+    realMs.push_back(real);
+    cpuMs.push_back(cpu);
+  }
+  void count(std::string_view counter, double value);
+  const std::vector<double>& samples(std::string_view counter) const;  // empty if there are none
+};
+
+// Where and how it was measured.
+struct Context {
+  std::string date;            // ISO 8601, UTC
+  std::string version, build;  // "0.1.0", "release"
+  std::string cpu;
+  int cores = 0;
+  std::vector<double> load;  // of the machine over 1, 5 and 15 minutes, when it began
+  std::string driver;
+  std::string timers;  // "gpu-timer" or "cpu-after-finish"
+  bool quick = false;
+  unsigned long long seed = 0;
+
+  // As pairs to read.
+  std::vector<std::pair<std::string, std::string>> described() const;
+};
+Context contextOfMachine();  // what does not depend on a driver or the suite
+
+struct Results {
+  std::string suite{};
+  Context context{};
+  int cameras = 0, rounds = 0;  // each variant takes `rounds` turns at each camera
+  std::vector<Measurement> measurements{};
+  std::vector<std::string> notes{};  // what was left out, and why
+  bool cancelled = false;            // scenes are missing
+
+  // The measurement of that name, made if there is none.
+  Measurement& at(const std::vector<std::string>& name);
+  const Measurement* find(const std::vector<std::string>& name) const;
+  // The samples of all measurements whose names begin so: of real time, or of a counter.
+  std::vector<double> times(const std::vector<std::string>& begin) const;
+  std::vector<double> samples(const std::vector<std::string>& begin,
+                              std::string_view counter) const;
+  // Adds the note unless it is there already.
+  void note(const std::string& text);
+  // The different parts at `place` of names that begin with `begin`, in order.
+  std::vector<std::string> parts(std::size_t place,
+                                 const std::vector<std::string>& begin = {}) const;
+};
+
+// As Google Benchmark writes it (--benchmark_out, json_schema_version 1), so that its tools read
+// it: a run of type "iteration" for each sample of time and the aggregates "median",
+// "lower_quartile", "upper_quartile", "min" and "max", which have the counters.
+std::string googleBenchmarkJson(const std::vector<Results>& suites);
+
+}  // namespace lucerna::app::bench

@@ -1,0 +1,175 @@
+// Figure 4.5: what shadow maps of a size cost and how far they are from traced shadows.
+#include "app/bench/suite.hpp"
+#include "image/metrics.hpp"
+#include "trace/reference.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+const std::vector<std::string> kMethods{"uniform", "lispsm", "cascades"};
+
+using Name = std::vector<std::string>;  // method, size of the map, scene
+
+std::vector<std::string> mapSizes(const Results& results) {
+  std::vector<std::string> sizes{"512", "1024", "2048", "4096", "8192"};
+  if (results.context.quick) sizes.resize(3);
+  return sizes;
+}
+
+Chain chainOf(const std::string& method, const std::string& size) {
+  return {{{"Cull"},
+           {"GBuffer"},
+           {"ShadowMaps", {"method=" + method, "size=" + size}},
+           {"ShadowedLighting"},
+           {"Background"},
+           {"ToneMap", {"operator=linear"}}}};
+}
+
+// As a screen shows it: encoded bytes, brighter than white cut off.
+Image shown(const Image& linear) {
+  Image encoded = linear;
+  for (float& value : encoded.as<float>()) value = srgbFromLinear(value);
+  return converted(converted(encoded, ComponentType::U8, 3), ComponentType::F32, 3);
+}
+
+// Shadows are hard, for the sun has no size, and exact: one ray decides a pixel.
+Result<Image> traced(const Run& run, uvec2 size) {
+  const trace::ReferencePicture picture =
+      trace::renderReference(run.stage.scene(), {.size = size,
+                                                 .view = run.stage.view(size),
+                                                 .samples = 1,
+                                                 .primary = trace::Primary::Centre,
+                                                 .mirrors = 0});
+  if (picture.cancelled) return error(ErrorKind::Cancelled, "cancelled while tracing");
+  return shown(picture.color);
+}
+
+// ShadowMaps and ShadowedLighting together: a better map may cost in either.
+void addTimes(Measurement& m, const graph::FrameProfile& profile) {
+  double real = 0, cpu = 0, maps = 0;
+  for (const graph::StepProfile& step : profile.steps) {
+    if (step.row != "ShadowMaps" && step.row != "ShadowedLighting") continue;
+    real += step.gpuMs;
+    cpu += step.cpuMs;
+    if (step.row == "ShadowMaps") maps = step.gpuMs;
+  }
+  m.add(real, cpu);
+  m.count("maps_ms", maps);
+}
+
+Status measure(Run& run) {
+  const uvec2 size = run.extent.sizes.front();
+  std::vector<std::size_t> variants;
+  std::vector<Name> names;
+  for (const std::string& mapSize : mapSizes(run.results))
+    for (const std::string& method : kMethods) {
+      LUCERNA_TRY(
+          variant,
+          run.stage.add({.chain = chainOf(method, mapSize), .size = size, .profiled = true}));
+      variants.push_back(variant);
+      names.push_back({method, mapSize, run.scene});
+    }
+  for (const SeededCamera& camera : run.cameras) {
+    run.stage.look(camera.pose);
+    LUCERNA_TRY(truth, traced(run, size));
+    for (const std::size_t variant : variants) {
+      Image picture;
+      LUCERNA_TRY_VOID(run.stage.draw(variant, &picture));
+      const Image test = converted(picture, ComponentType::F32, 3);
+      Measurement& m = run.results.at(names[variant]);
+      m.count("flip", flipLdr(truth, test).mean);
+      m.count("psnr", pixelMetrics(truth, test).psnr);
+    }
+    run.advance(0.5 / static_cast<double>(run.cameras.size()));  // the errors
+    LUCERNA_TRY_VOID(run.takeTurns(variants, run.extent.rounds,
+                                   0.5 / static_cast<double>(run.cameras.size()),
+                                   [&](std::size_t variant, const Sample& sample) {
+                                     addTimes(run.results.at(names[variant]), sample.profile);
+                                   }));
+  }
+  return {};
+}
+
+std::string flipText(const std::vector<double>& flips) {
+  if (flips.empty()) return "-";
+  const Spread spread = spreadOf(flips);
+  return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.max));
+}
+
+LinePlot plotOf(const Results& results, std::string title, std::string yLabel, bool ofError) {
+  LinePlot plot{.title = std::move(title),
+                .xLabel = "px, side of the map",
+                .yLabel = std::move(yLabel),
+                .logarithmic = true};
+  for (const std::string& method : kMethods) {
+    Curve& curve = plot.curves.emplace_back(Curve{.name = method});
+    for (const std::string& size : mapSizes(results)) {
+      const Name name{method, size};
+      const auto values = ofError ? results.samples(name, "flip") : results.times(name);
+      curve.points.emplace_back(std::stod(size), spreadOf(values).median);
+    }
+  }
+  return plot;
+}
+
+Report report(const Results& results) {
+  Report report{.title =
+                    "shadow-size: shadow maps, time and error against their size (figure 4.5)"};
+  if (results.measurements.empty()) return report;
+  report.blocks.emplace_back(
+      "Time of ShadowMaps and ShadowedLighting together in ms, and the distance of the picture "
+      "from "
+      "a traced one with the same hard shadows of the sun; all surfaces are plain. Over all "
+      "cameras. "
+      "A map of cascades is one of four.");
+  const std::vector<std::string> sizes = mapSizes(results), scenes = results.parts(2);
+  report.blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "size", sizes, kMethods,
+                                     [&](const std::string& size, const std::string& method) {
+                                       return spreadText(results.times({method, size}));
+                                     }));
+  report.blocks.emplace_back(tableOf("Of it ShadowMaps alone", "size", sizes, kMethods,
+                                     [&](const std::string& size, const std::string& method) {
+                                       return spreadText(
+                                           results.samples({method, size}, "maps_ms"));
+                                     }));
+  for (const std::string& scene : scenes)
+    report.blocks.emplace_back(
+        tableOf("FLIP, " + scene + ": median (worst camera)", "size", sizes, kMethods,
+                [&](const std::string& size, const std::string& method) {
+                  return flipText(results.samples({method, size, scene}, "flip"));
+                }));
+  report.blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (quartiles)", "size", sizes,
+                                     kMethods,
+                                     [&](const std::string& size, const std::string& method) {
+                                       return spreadText(results.samples({method, size}, "psnr"));
+                                     }));
+  report.blocks.emplace_back(plotOf(results, "Time against size, all scenes", "ms", false));
+  report.blocks.emplace_back(plotOf(results, "Error against size, all scenes", "FLIP", true));
+  return report;
+}
+
+}  // namespace
+
+Suite shadowSizeSuite() {
+  return {.name = "shadow-size",
+          .summary = "shadow maps: time and error against their size (figure 4.5)",
+          .scenes = {{.name = "nightcity",
+                      .path = "builtin:nightcity",
+                      .elevationDegrees = 8,
+                      .azimuthDegrees = 40,
+                      .eyeHeight = 1.7f},
+                     {.name = "atrium", .path = "builtin:atrium"},
+                     {.name = "materials", .path = "builtin:materials"},
+                     {.name = "street-1", .path = "torcs_street-1/street-1.gltf", .outside = true},
+                     {.name = "sponza", .path = "crytek_sponza/gltf/sponza.gltf", .outside = true},
+                     {.name = "institute",
+                      .path = "redeclipse_institute/institute.obj",
+                      .outside = true}},
+          .full = {.sizes = {{640, 360}}, .cameras = 20, .rounds = 2},
+          .quick = {.sizes = {{320, 180}}, .cameras = 2, .rounds = 1},
+          .plain = true,
+          .measure = measure,
+          .report = report};
+}
+
+}  // namespace lucerna::app::bench

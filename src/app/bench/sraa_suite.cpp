@@ -1,0 +1,224 @@
+// Tables 4.7 and 4.8: SRAA's samples and filter, and supersampling against SRAA; beside them how
+// far each is from a picture of sixteen samples a pixel.
+#include "app/bench/suite.hpp"
+#include "app/resample.hpp"
+#include "image/metrics.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+// As in the passes suite: shares of the sight.
+constexpr float kAoRadius = 0.1f, kLensRadius = 0.01f;
+// Of a component in 0 to 255: pixels that differ more without anti-aliasing need it.
+constexpr float kAliased = 8.f;
+
+const std::string kDepth = "depth", kNormals = "depth+normal";
+const std::string kNone = "none", kFxaa = "Fxaa", kSraaDepth = "SRAA, depth",
+                  kSraa = "SRAA, depth+normal", kSupersampling = "4x supersampling";
+const std::vector<std::string> kTechniques{kNone, kFxaa, kSraaDepth, kSraa, kSupersampling};
+const std::string kPlainPicture = "no effects", kEffects = "AO and depth of field";
+
+// Names of the two kinds of measurement: {"split", size, geometry, row, scene} and {"frame", size,
+// effects, technique, scene}.
+const std::string kSplit = "split", kFrame = "frame";
+using Name = std::vector<std::string>;
+
+void addSraa(Chain& chain, const std::string& geometry) {
+  chain.rows.push_back({"GeometrySamples", {"geometry=" + geometry}});
+  chain.rows.push_back({"Sraa"});
+}
+
+Chain chainOf(const std::string& technique, const std::string& effects, float sight) {
+  const bool all = effects == kEffects;
+  Chain chain{{{"Cull"}, {"GBuffer"}}};
+  if (all) chain.rows.push_back({"ScreenSpaceAo", {fmt::format("radius={}", kAoRadius * sight)}});
+  chain.rows.insert(chain.rows.end(),
+                    {{"Lighting"}, {"CustomShaders"}, {"Background"}, {"Transparency"}});
+  if (technique == kSraaDepth) addSraa(chain, kDepth);
+  if (technique == kSraa) addSraa(chain, kNormals);
+  if (all)
+    chain.rows.push_back({"DepthOfField",
+                          {fmt::format("lensRadius={}", kLensRadius * sight),
+                           fmt::format("focusDistance={}", sight)}});
+  chain.rows.push_back({"ToneMap"});
+  if (technique == kFxaa) chain.rows.push_back({"Fxaa"});
+  return chain;
+}
+
+Image rgb(const Image& bytes) {
+  return converted(bytes, ComponentType::F32, 3);
+}
+
+// Where the picture without anti-aliasing differs from the true one.
+Image aliasedPixels(const Image& truth, const Image& none) {
+  Image mask(truth.width(), truth.height(), 1, ComponentType::U8);
+  const auto a = truth.as<float>(), b = none.as<float>();
+  const auto pixels = mask.as<std::uint8_t>();
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c)
+      if (std::abs(a[3 * i + c] - b[3 * i + c]) > kAliased / 255.f) pixels[i] = 255;
+  return mask;
+}
+
+// The techniques of a scene without effects, drawn once more for their pictures.
+Status measureErrors(Run& run, uvec2 size, const std::vector<std::size_t>& variants,
+                     const std::vector<Name>& names, std::size_t sixteen) {
+  Image fine;
+  LUCERNA_TRY_VOID(run.stage.draw(sixteen, &fine));
+  const Image truth = rgb(resizedSrgb(std::move(fine), size));
+  Image mask;
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    if (names[i][0] != kFrame || names[i][2] != kPlainPicture) continue;
+    Image picture;
+    LUCERNA_TRY_VOID(run.stage.draw(variants[i], &picture));
+    const Image test = rgb(resizedSrgb(std::move(picture), size));
+    if (names[i][3] == kNone) mask = aliasedPixels(truth, test);
+    Measurement& m = run.results.at(names[i]);
+    m.count("flip", flipLdr(truth, test).mean);
+    m.count("edge_psnr", pixelMetrics(truth, test, &mask).psnr);
+  }
+  return {};
+}
+
+void take(Run& run, const Name& name, const Sample& sample) {
+  if (name[0] == kFrame) {
+    run.results.at(name).add(sample.realMs, sample.cpuMs);
+    return;
+  }
+  for (const graph::StepProfile& step : sample.profile.steps)
+    if (step.row == "GeometrySamples" || step.row == "Sraa") {
+      Name full = name;
+      full.insert(full.end() - 1, step.row);
+      run.results.at(full).add(step.gpuMs, step.cpuMs);
+    }
+}
+
+// The first size is that of whole frames and pictures, the last that of the split.
+Status measure(Run& run) {
+  const uvec2 size = run.extent.sizes.front(), large = run.extent.sizes.back();
+  const float sight = run.sight();
+  std::vector<std::size_t> variants;
+  std::vector<Name> names;
+  const auto add = [&](const Variant& variant, Name name) -> Status {
+    LUCERNA_TRY(number, run.stage.add(variant));
+    variants.push_back(number);
+    names.push_back(std::move(name));
+    return {};
+  };
+  for (const std::string& geometry : {kDepth, kNormals})
+    LUCERNA_TRY_VOID(
+        add({.chain = chainOf(geometry == kDepth ? kSraaDepth : kSraa, kPlainPicture, sight),
+             .size = large,
+             .profiled = true},
+            {kSplit, sizeName(large), geometry, run.scene}));
+  for (const std::string& effects : {kPlainPicture, kEffects})
+    for (const std::string& technique : kTechniques)
+      LUCERNA_TRY_VOID(add({.chain = chainOf(technique, effects, sight),
+                            .size = technique == kSupersampling ? 2u * size : size},
+                           {kFrame, sizeName(size), effects, technique, run.scene}));
+  LUCERNA_TRY(sixteen,
+              run.stage.add({.chain = chainOf(kNone, kPlainPicture, sight), .size = 4u * size}));
+  for (const SeededCamera& camera : run.cameras) {
+    run.stage.look(camera.pose);
+    LUCERNA_TRY_VOID(measureErrors(run, size, variants, names, sixteen));
+    run.advance(0.5 / static_cast<double>(run.cameras.size()));  // the errors
+    LUCERNA_TRY_VOID(run.takeTurns(
+        variants, run.extent.rounds, 0.5 / static_cast<double>(run.cameras.size()),
+        [&](std::size_t variant, const Sample& sample) { take(run, names[variant], sample); }));
+  }
+  return {};
+}
+
+Table splitTable(const Results& results, const std::string& size) {
+  const std::vector<std::string> columns{"samples, depth",  "samples, depth+normal",
+                                         "filter, depth",   "filter, depth+normal",
+                                         "together, depth", "together, depth+normal"};
+  const auto times = [&](const std::string& geometry, const char* row, const std::string& scene) {
+    return results.times({kSplit, size, geometry, row, scene});
+  };
+  return tableOf("SRAA split, " + size + ", ms: median (quartiles)", "scene",
+                 results.parts(4, {kSplit, size}), columns,
+                 [&](const std::string& scene, const std::string& column) {
+                   const std::string geometry = column.ends_with(kNormals) ? kNormals : kDepth;
+                   const auto samples = times(geometry, "GeometrySamples", scene);
+                   const auto filter = times(geometry, "Sraa", scene);
+                   if (column.starts_with("samples")) return spreadText(samples);
+                   if (column.starts_with("filter")) return spreadText(filter);
+                   return numberText(spreadOf(samples).median + spreadOf(filter).median);
+                 });
+}
+
+Table framesTable(const Results& results, const std::string& size, const std::string& effects) {
+  const std::string ratio = "4x supersampling / SRAA";
+  std::vector<std::string> columns = kTechniques;
+  columns.push_back(ratio);
+  const auto times = [&](const std::string& technique, const std::string& scene) {
+    return results.times({kFrame, size, effects, technique, scene});
+  };
+  return tableOf("A frame with " + effects + ", " + size + ", ms: median (quartiles)", "scene",
+                 results.parts(4, {kFrame, size, effects}), columns,
+                 [&](const std::string& scene, const std::string& column) {
+                   return column == ratio
+                              ? ratioText(times(kSupersampling, scene), times(kSraa, scene))
+                              : spreadText(times(column, scene));
+                 });
+}
+
+Table errorTable(const Results& results, const std::string& size, std::string title,
+                 const std::string& counter) {
+  return tableOf(std::move(title), "scene", results.parts(4, {kFrame, size, kPlainPicture}),
+                 kTechniques, [&](const std::string& scene, const std::string& technique) {
+                   return spreadText(
+                       results.samples({kFrame, size, kPlainPicture, technique, scene}, counter));
+                 });
+}
+
+BarPlot splitPlot(const Results& results, const std::string& size) {
+  BarPlot plot{.title = "SRAA split, " + size, .unit = "ms", .parts = {"GeometrySamples", "Sraa"}};
+  for (const std::string& scene : results.parts(4, {kSplit, size}))
+    for (const std::string& geometry : {kDepth, kNormals}) {
+      plot.rows.push_back(scene + ", " + geometry);
+      std::vector<double>& values = plot.values.emplace_back();
+      for (const std::string& row : plot.parts)
+        values.push_back(spreadOf(results.times({kSplit, size, geometry, row, scene})).median);
+    }
+  return plot;
+}
+
+Report report(const Results& results) {
+  Report report{.title = "sraa: SRAA split, and against supersampling (tables 4.7 and 4.8)"};
+  report.blocks.emplace_back(
+      "Supersampling draws twice the width and height; that its picture is made smaller after that "
+      "is not in its time. Effects: ScreenSpaceAo and DepthOfField.");
+  for (const std::string& size : results.parts(1, {kSplit})) {
+    report.blocks.emplace_back(splitTable(results, size));
+    report.blocks.emplace_back(splitPlot(results, size));
+  }
+  for (const std::string& size : results.parts(1, {kFrame})) {
+    for (const std::string& effects : {kPlainPicture, kEffects})
+      report.blocks.emplace_back(framesTable(results, size, effects));
+    report.blocks.emplace_back(errorTable(
+        results, size, "FLIP from 16x supersampling, " + size + ": median (quartiles)", "flip"));
+    report.blocks.emplace_back(
+        errorTable(results, size,
+                   fmt::format("PSNR in dB of the pixels that differ by more than {} without "
+                               "anti-aliasing, {}: median (quartiles)",
+                               kAliased, size),
+                   "edge_psnr"));
+  }
+  return report;
+}
+
+}  // namespace
+
+Suite sraaSuite() {
+  return {.name = "sraa",
+          .summary = "SRAA split, and supersampling against it (tables 4.7, 4.8)",
+          .scenes = thesisScenes(),
+          .full = {.sizes = {{800, 600}, {1600, 1200}}, .cameras = 5, .rounds = 3},
+          .quick = {.sizes = {{320, 240}, {640, 480}}, .cameras = 1, .rounds = 1},
+          .measure = measure,
+          .report = report};
+}
+
+}  // namespace lucerna::app::bench

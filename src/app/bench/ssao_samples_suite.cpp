@@ -1,0 +1,240 @@
+// Figure 4.4: time of screen-space ambient occlusion against samples, beside its error: the mean
+// squared difference from ambient occlusion traced at the same pixels.
+#include "app/bench/suite.hpp"
+#include "trace/reference.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+constexpr float kRadius = 0.1f;  // of the sight
+constexpr int kTraced = 256;     // directions a pixel
+
+// A method and the blur that the sweep below found best for it.
+struct Method {
+  std::string name, blur;
+  std::string label(const std::string& withBlur) const { return name + ", " + withBlur; }
+  std::string label() const { return label(blur); }
+};
+const std::vector<Method> kMethods{
+    {"horizon", "bilateral"}, {"hemisphere", "bilateral"}, {"gaussian", "bilateral"}};
+const std::vector<std::string> kSamples{"4", "8", "16", "25", "36", "64"};
+const std::vector<std::string> kBlurs{"bilateral", "box", "none"};
+const std::string kSuffice = "25";  // samples, as the thesis says; at which blurs are compared
+
+using Name = std::vector<std::string>;  // label, samples, scene
+
+struct Settings {
+  Name name;
+  Chain chain;
+};
+
+Settings settingsOf(const Method& method, const std::string& blur, const std::string& samples,
+                    const Run& run) {
+  return {{method.label(blur), samples, run.scene},
+          {{{"Cull"},
+            {"GBuffer"},
+            {"ScreenSpaceAo",
+             {"method=" + method.name, "blur=" + blur, "samples=" + samples,
+              fmt::format("radius={}", kRadius * run.sight())}}},
+           "ScreenSpaceAo.ambientVisibility"}};
+}
+
+std::vector<Settings> allSettings(const Run& run) {
+  std::vector<Settings> all;
+  for (const Method& method : kMethods) {
+    for (const std::string& samples : kSamples)
+      all.push_back(settingsOf(method, method.blur, samples, run));
+    for (const std::string& blur : kBlurs)
+      if (blur != method.blur) all.push_back(settingsOf(method, blur, kSuffice, run));
+  }
+  return all;
+}
+
+Result<Image> traced(const Run& run, uvec2 size) {
+  const trace::ReferencePicture picture =
+      trace::renderReference(run.stage.scene(), {.size = size,
+                                                 .view = run.stage.view(size),
+                                                 .samples = kTraced,
+                                                 .primary = trace::Primary::Centre,
+                                                 .shadows = false,
+                                                 .mirrors = 0,
+                                                 .aoRadius = kRadius * run.sight()});
+  if (picture.cancelled) return error(ErrorKind::Cancelled, "cancelled while tracing");
+  return picture.ao;
+}
+
+double meanSquaredError(const Image& truth, const Image& picture) {
+  const Image test = converted(picture, ComponentType::F32, 1);
+  const auto a = truth.as<float>(), b = test.as<float>();
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto difference = static_cast<double>(a[i] - b[i]);
+    sum += difference * difference;
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+Status measure(Run& run) {
+  const uvec2 size = run.extent.sizes.front();
+  const std::vector<Settings> all = allSettings(run);
+  std::vector<std::size_t> variants;
+  for (const Settings& settings : all) {
+    LUCERNA_TRY(variant, run.stage.add({.chain = settings.chain, .size = size, .profiled = true}));
+    variants.push_back(variant);
+  }
+  for (const SeededCamera& camera : run.cameras) {
+    run.stage.look(camera.pose);
+    LUCERNA_TRY(truth, traced(run, size));
+    for (const std::size_t variant : variants) {
+      Image picture;
+      LUCERNA_TRY_VOID(run.stage.draw(variant, &picture));
+      run.results.at(all[variant].name).count("mse", meanSquaredError(truth, picture));
+    }
+    run.advance(0.5 / static_cast<double>(run.cameras.size()));  // the errors
+    LUCERNA_TRY_VOID(run.takeTurns(variants, run.extent.rounds,
+                                   0.5 / static_cast<double>(run.cameras.size()),
+                                   [&](std::size_t variant, const Sample& sample) {
+                                     const graph::StepProfile& step = sample.profile.steps.back();
+                                     run.results.at(all[variant].name).add(step.gpuMs, step.cpuMs);
+                                   }));
+  }
+  return {};
+}
+
+std::string errorText(const Results& results, const Name& name) {
+  const std::vector<double> errors = results.samples(name, "mse");
+  if (errors.empty()) return "-";
+  const Spread spread = spreadOf(errors);
+  return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.max));
+}
+
+// Over all cameras, of one scene or of all: points at the sample counts, of median time (x) and
+// error (y).
+std::vector<glm::dvec2> errorOverTime(const Results& results, const Method& method,
+                                      const std::string& scene) {
+  std::vector<glm::dvec2> points;
+  for (const std::string& samples : kSamples) {
+    Name name{method.label(), samples};
+    if (!scene.empty()) name.push_back(scene);
+    points.emplace_back(spreadOf(results.times(name)).median,
+                        spreadOf(results.samples(name, "mse")).median);
+  }
+  std::ranges::sort(points, {}, [](const glm::dvec2& p) { return p.x; });
+  return points;
+}
+
+Table errorsAtTheSameTime(const Results& results) {
+  const std::string all = "all scenes";
+  std::vector<std::string> scenes = results.parts(2);
+  scenes.push_back(all);
+  std::vector<std::string> rows;
+  for (const Method& method : kMethods) rows.push_back(method.name);
+  return tableOf(
+      fmt::format("MSE in the time of the hemisphere's {} samples, against the hemisphere's",
+                  kSuffice),
+      "scene", scenes, rows, [&](const std::string& scene, const std::string& name) {
+        const auto method = std::ranges::find(kMethods, name, &Method::name);
+        const auto hemisphere = std::ranges::find(kMethods, "hemisphere", &Method::name);
+        Name thesis{hemisphere->label(), kSuffice};
+        if (scene != all) thesis.push_back(scene);
+        const double time = spreadOf(results.times(thesis)).median;
+        const double own =
+            onLogCurve(errorOverTime(results, *method, scene == all ? "" : scene), time);
+        return fmt::format("{} ({:.2f})", numberText(own),
+                           own / spreadOf(results.samples(thesis, "mse")).median);
+      });
+}
+
+LinePlot plotOf(const Results& results, std::string title, std::string yLabel, bool ofError) {
+  LinePlot plot{.title = std::move(title),
+                .xLabel = "samples",
+                .yLabel = std::move(yLabel),
+                .logarithmic = ofError};
+  for (const Method& method : kMethods) {
+    Curve& curve = plot.curves.emplace_back(Curve{.name = method.label()});
+    for (const std::string& samples : kSamples) {
+      const Name name{method.label(), samples};
+      const auto values = ofError ? results.samples(name, "mse") : results.times(name);
+      curve.points.emplace_back(std::stod(samples), spreadOf(values).median);
+    }
+  }
+  return plot;
+}
+
+LinePlot errorOverTimePlot(const Results& results) {
+  LinePlot plot{.title = "Error against time, median of all scenes",
+                .xLabel = "ms",
+                .yLabel = "MSE",
+                .logarithmic = true};
+  for (const Method& method : kMethods)
+    plot.curves.push_back({method.label(), errorOverTime(results, method, "")});
+  return plot;
+}
+
+Report report(const Results& results) {
+  Report report{.title =
+                    "ssao-samples: ambient occlusion, time and error against samples (figure 4.4)"};
+  if (results.measurements.empty()) return report;
+  report.blocks.emplace_back(
+      fmt::format("Time of ScreenSpaceAo in ms, and the mean squared difference of its visibility "
+                  "from one that "
+                  "is traced with {} directions a pixel from the same surfaces, all of them plain. "
+                  "The radius is "
+                  "{} of the distance at which things are seen. Over all cameras.",
+                  kTraced, kRadius));
+  std::vector<std::string> labels;
+  std::vector<std::string> names;
+  for (const Method& method : kMethods) {
+    labels.push_back(method.label());
+    names.push_back(method.name);
+  }
+  const std::vector<std::string> scenes = results.parts(2);
+  report.blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "samples", kSamples,
+                                     labels,
+                                     [&](const std::string& samples, const std::string& label) {
+                                       return spreadText(results.times({label, samples}));
+                                     }));
+  report.blocks.emplace_back(tableOf("MSE, all scenes: median (worst camera)", "samples", kSamples,
+                                     labels,
+                                     [&](const std::string& samples, const std::string& label) {
+                                       return errorText(results, {label, samples});
+                                     }));
+  report.blocks.emplace_back(tableOf("MSE with " + kSuffice + " samples: median (worst camera)",
+                                     "method", labels, scenes,
+                                     [&](const std::string& label, const std::string& scene) {
+                                       return errorText(results, {label, kSuffice, scene});
+                                     }));
+  report.blocks.emplace_back(
+      tableOf("Blurs, " + kSuffice + " samples, all scenes: MSE", "method", names, kBlurs,
+              [&](const std::string& name, const std::string& blur) {
+                const auto method = std::ranges::find(kMethods, name, &Method::name);
+                return errorText(results, {method->label(blur), kSuffice});
+              }));
+  report.blocks.emplace_back(errorsAtTheSameTime(results));
+  report.blocks.emplace_back(plotOf(results, "Time against samples", "ms", false));
+  report.blocks.emplace_back(plotOf(results, "Error against samples", "MSE", true));
+  report.blocks.emplace_back(errorOverTimePlot(results));
+  return report;
+}
+
+}  // namespace
+
+Suite ssaoSamplesSuite() {
+  return {
+      .name = "ssao-samples",
+      .summary = "ambient occlusion: time and error against samples (figure 4.4)",
+      .scenes =
+          {{.name = "atrium", .path = "builtin:atrium"},
+           {.name = "nightcity", .path = "builtin:nightcity"},
+           {.name = "mirrors", .path = "builtin:mirrors"},
+           {.name = "sponza", .path = "crytek_sponza/gltf/sponza.gltf", .outside = true},
+           {.name = "institute", .path = "redeclipse_institute/institute.obj", .outside = true},
+           {.name = "living_room", .path = "godot_living_room/living_room.glb", .outside = true}},
+      .full = {.sizes = {{640, 360}}, .cameras = 20, .rounds = 3},
+      .quick = {.sizes = {{320, 180}}, .cameras = 2, .rounds = 1},
+      .plain = true,
+      .measure = measure,
+      .report = report};
+}
+
+}  // namespace lucerna::app::bench

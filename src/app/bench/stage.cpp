@@ -1,0 +1,129 @@
+#include "app/bench/stage.hpp"
+
+#include <chrono>
+
+#include "app/frame.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr float kPlainAlbedo = 230.f / 255.f;         // encoded, as the G-buffer stores it
+constexpr float kSunlight = 0.75f, kAmbient = 0.25f;  // radiance of a white surface by each
+
+double msSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+void lightBySun(scene::Scene& scene, float elevation, float azimuth) {
+  const vec3 toSun(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                   -std::cos(elevation) * std::cos(azimuth));
+  scene::Light sun;
+  sun.name = "sun";
+  sun.kind = scene::LightKind::Directional;
+  sun.intensity = kSunlight * kPi;
+  sun.node = scene::addNode(scene, "sun", worldFromCamera({.position = toSun, .target = vec3(0)}));
+  scene.lights = {sun};
+  scene.headlight = scene::kNone;
+  scene.ambient = vec3(kAmbient);
+  scene.exposure = 0.f;
+}
+
+void makePlain(scene::Material& material) {
+  scene::Material plain;
+  plain.name = material.name;
+  plain.model = scene::MaterialModel::Phong;
+  plain.doubleSided = material.doubleSided;
+  plain.albedo = vec4(vec3(linearFromSrgb(kPlainAlbedo)), 1.f);
+  if (material.alphaMode == scene::AlphaMode::Mask) {  // its holes stay
+    plain.alphaMode = material.alphaMode;
+    plain.alphaCutoff = material.alphaCutoff;
+    plain.albedo.w = material.albedo.w;
+    plain.albedoTexture = material.albedoTexture;
+  }
+  material = std::move(plain);
+}
+
+void makePlain(scene::Scene& scene) {
+  std::erase_if(scene.objects, [&](const scene::Object& object) {
+    return scene.materials[object.material].alphaMode == scene::AlphaMode::Blend ||
+           scene.meshes[object.mesh].triangleCount() == 0;
+  });
+  for (scene::Material& material : scene.materials) makePlain(material);
+}
+
+Result<graph::Pipeline> pipelineOf(const Chain& chain, const graph::Registry& registry) {
+  graph::Pipeline pipeline{.name = "bench", .output = chain.output};
+  for (const Row& row : chain.rows)
+    pipeline.passes.push_back({.name = row.pass, .type = row.pass, .reads = {}, .params = {}});
+  for (const Row& row : chain.rows)
+    for (const std::string& setting : row.settings)
+      LUCERNA_TRY_VOID(graph::applySetting(pipeline, registry, row.pass + "." + setting));
+  return pipeline;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Stage>> Stage::open(const StageSettings& settings) {
+  RenderSettings render = settings.render;
+  render.timeStep = 0;
+  LUCERNA_TRY(session, openSession(render));
+  scene::Scene& scene = session->scene;
+  scene.animations.clear();  // every frame shows the same moment
+  lightBySun(scene, glm::radians(settings.elevationDegrees), glm::radians(settings.azimuthDegrees));
+  if (settings.plain) {
+    makePlain(scene);
+    session->gpuScene = {};
+    render::upload(*session->device, session->gpuScene, scene);
+  }
+  render::updateLights(*session->device, session->lights, scene);
+  session->camera = addCamera(scene, "bench", CameraPose{});
+  session->rebuild = false;  // the executors below have their pipelines already
+  return std::unique_ptr<Stage>(new Stage(std::move(session)));
+}
+
+Result<std::size_t> Stage::add(const Variant& variant) {
+  LUCERNA_TRY(pipeline, pipelineOf(variant.chain, session_->registry));
+  auto executor = std::make_unique<graph::Executor>(*session_->device, session_->registry);
+  LUCERNA_TRY_VOID(executor->setPipeline(pipeline, variant.size));
+  lanes_.push_back({variant, std::move(executor)});
+  return lanes_.size() - 1;
+}
+
+void Stage::look(const CameraPose& pose) {
+  moveCamera(session_->scene, session_->camera, pose);
+}
+
+scene::View Stage::view(uvec2 size) const {
+  return scene::viewOf(session_->scene, session_->scene.cameras[session_->camera],
+                       static_cast<float>(size.x) / static_cast<float>(size.y));
+}
+
+Result<Sample> Stage::draw(std::size_t number, Image* picture) {
+  Session& s = *session_;
+  Lane& lane = lanes_[number];
+  s.settings.size = lane.variant.size;
+  s.plan = planViews(lane.variant.size, 1, 0, 0);
+  std::swap(s.executor, lane.executor);
+  Sample sample;
+  ProfileLog log;
+  s.device->finish();
+  s.device->resetCounters();
+  const auto start = Clock::now();
+  const Status drawn = runFrame(s, lane.variant.profiled ? &log : nullptr,
+                                [&](Session&, int, const gpu::Texture& output) -> Status {
+                                  sample.cpuMs = msSince(start);
+                                  s.device->finish();
+                                  sample.realMs = msSince(start);
+                                  sample.counters = s.device->counters();
+                                  if (picture) *picture = s.device->download(output);
+                                  return {};
+                                });
+  if (drawn && lane.variant.profiled) sample.profile = s.executor->profile();
+  std::swap(s.executor, lane.executor);
+  LUCERNA_TRY_VOID(drawn);
+  return sample;
+}
+
+}  // namespace lucerna::app::bench

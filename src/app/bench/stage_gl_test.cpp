@@ -1,0 +1,93 @@
+#include "app/bench/stage.hpp"
+
+#include <gmock/gmock.h>
+
+#include "image/metrics.hpp"
+#include "trace/reference.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr uvec2 kSize{96, 72};
+
+std::unique_ptr<Stage> open(const std::string& scene, bool plain = false) {
+  StageSettings settings{.render = {}, .plain = plain};
+  settings.render.scene = scene;
+  auto stage = Stage::open(settings);
+  EXPECT_TRUE(stage) << stage.error().message;
+  return stage ? std::move(*stage) : nullptr;
+}
+
+const Chain kDeferred{{{"Cull"}, {"GBuffer"}, {"Lighting"}, {"Background"}, {"ToneMap"}}};
+
+TEST(Stage, VariantsDoNotDisturbEachOther) {
+  const auto stage = open("builtin:cornell");
+  ASSERT_TRUE(stage);
+  const auto first = stage->add({.chain = kDeferred, .size = kSize});
+  Chain dark = kDeferred;
+  dark.rows.back().settings = {"exposure=-8"};
+  const auto second = stage->add({.chain = dark, .size = 2u * kSize, .profiled = true});
+  ASSERT_TRUE(first && second);
+  stage->look(seededCameras(stage->scene(), {.count = 1})[0].pose);
+  Image before, other, after;
+  ASSERT_TRUE(stage->draw(*first, &before));
+  ASSERT_TRUE(stage->draw(*second, &other));
+  ASSERT_TRUE(stage->draw(*first, &after));
+  EXPECT_EQ(before.width(), 96);
+  EXPECT_EQ(other.width(), 192);
+  EXPECT_TRUE(std::ranges::equal(before.bytes(), after.bytes()));
+}
+
+TEST(Stage, ASampleHasTimesAndCounts) {
+  const auto stage = open("builtin:cornell");
+  ASSERT_TRUE(stage);
+  const auto whole = stage->add({.chain = kDeferred, .size = kSize});
+  const auto profiled = stage->add({.chain = kDeferred, .size = kSize, .profiled = true});
+  ASSERT_TRUE(whole && profiled);
+  stage->look(seededCameras(stage->scene(), {.count = 1})[0].pose);
+  const auto frame = stage->draw(*whole), passes = stage->draw(*profiled);
+  ASSERT_TRUE(frame && passes);
+  EXPECT_GT(frame->cpuMs, 0);
+  EXPECT_GE(frame->realMs, frame->cpuMs);
+  EXPECT_TRUE(frame->profile.steps.empty());
+  EXPECT_EQ(passes->profile.steps.size(), kDeferred.rows.size());
+  EXPECT_EQ(frame->counters.draws, passes->profile.counters.draws);
+  EXPECT_GT(frame->counters.primitives, 2u);
+}
+
+TEST(Stage, FaultsOfAChainAreSaid) {
+  const auto stage = open("builtin:cornell");
+  ASSERT_TRUE(stage);
+  const auto unknown = stage->add({.chain = {{{"Cul"}}}, .size = kSize});
+  ASSERT_FALSE(unknown);
+  EXPECT_THAT(unknown.error().message, HasSubstr("Cul"));
+  EXPECT_FALSE(stage->add({.chain = {{{"Cull", {"colour=red"}}}}, .size = kSize}));
+}
+
+// What makes errors of a technique out of differences from the reference: nothing else differs.
+TEST(Stage, PlainScenesAgreeWithTheReference) {
+  for (const char* scene : {"builtin:cornell", "builtin:mirrors"}) {
+    const auto stage = open(scene, true);
+    ASSERT_TRUE(stage);
+    Chain chain = kDeferred;
+    chain.rows.back().settings = {"operator=linear"};
+    const auto variant = stage->add({.chain = chain, .size = kSize});
+    ASSERT_TRUE(variant);
+    stage->look(seededCameras(stage->scene(), {.count = 1, .seed = 1})[0].pose);
+    Image picture;
+    ASSERT_TRUE(stage->draw(*variant, &picture));
+    const auto traced = trace::renderReference(stage->scene(), {.size = kSize,
+                                                                .view = stage->view(kSize),
+                                                                .samples = 1,
+                                                                .primary = trace::Primary::Centre,
+                                                                .shadows = false});
+    Image truth = traced.color;
+    for (float& value : truth.as<float>()) value = srgbFromLinear(value);
+    EXPECT_GT(pixelMetrics(truth, converted(picture, ComponentType::F32, 3)).psnr, 45) << scene;
+  }
+}
+
+}  // namespace
+}  // namespace lucerna::app::bench

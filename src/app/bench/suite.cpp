@@ -1,0 +1,178 @@
+#include "app/bench/suite.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/file.hpp"
+#include "core/log.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+constexpr std::uint64_t kSceneUnits = 1000;  // of progress
+constexpr std::string_view kBuiltin = "builtin:";
+
+SceneChoice chosenByUser(const std::string& path) {
+  if (path.starts_with(kBuiltin)) return {.name = path.substr(kBuiltin.size()), .path = path};
+  return {.name = std::filesystem::path(path).stem().string(), .path = path};
+}
+
+// The scenes to measure; what is left out is noted.
+std::vector<SceneChoice> scenesOf(const Suite& suite, const BenchOptions& options,
+                                  Results& results) {
+  std::vector<SceneChoice> scenes;
+  for (const std::string& path : options.scenes) scenes.push_back(chosenByUser(path));
+  if (!scenes.empty()) return scenes;
+  for (SceneChoice scene : suite.scenes) {
+    if (scene.outside) {
+      const std::string file = scene.path;
+      scene.path = (std::filesystem::path(options.sceneFolder) / file).string();
+      if (options.sceneFolder.empty() || !std::filesystem::exists(scene.path)) {
+        results.note(fmt::format("Skipped: {}, as {}", scene.name,
+                                 options.sceneFolder.empty()
+                                     ? "no --scene-folder says where scenes of others are"
+                                     : scene.path + " is not there"));
+        continue;
+      }
+    }
+    scenes.push_back(std::move(scene));
+  }
+  return scenes;
+}
+
+Extent extentOf(const Suite& suite, const BenchOptions& options) {
+  Extent extent = options.quick ? suite.quick : suite.full;
+  if (!options.sizes.empty()) extent.sizes = options.sizes;
+  extent.cameras = options.cameras.value_or(extent.cameras);
+  extent.rounds = options.rounds.value_or(extent.rounds);
+  return extent;
+}
+
+Status measure(const Suite& suite, const SceneChoice& scene, const BenchOptions& options,
+               const Extent& extent, Results& results, Progress& progress) {
+  StageSettings settings{.render = options.render,
+                         .elevationDegrees = scene.elevationDegrees,
+                         .azimuthDegrees = scene.azimuthDegrees,
+                         .plain = suite.plain};
+  settings.render.scene = scene.path;
+  LUCERNA_TRY(stage, Stage::open(settings));
+  results.context.driver = stage->device().description();
+  results.context.timers = stage->device().timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer";
+  Run run(*stage, results, scene.name, extent, progress);
+  run.cameras = seededCameras(
+      stage->scene(),
+      {.count = extent.cameras, .seed = options.render.seed, .eyeHeight = scene.eyeHeight});
+  return suite.measure(run);
+}
+
+}  // namespace
+
+float Run::sight() const {
+  std::vector<double> sights;
+  for (const SeededCamera& camera : cameras) sights.push_back(static_cast<double>(camera.sight));
+  return static_cast<float>(spreadOf(sights).median);
+}
+
+Status Run::takeTurns(std::span<const std::size_t> variants, int rounds, double share,
+                      const Take& take) {
+  double pixels = 0;
+  const auto pixelsOf = [&](std::size_t v) {
+    const uvec2 size = stage.variant(v).size;
+    return static_cast<double>(size.x) * static_cast<double>(size.y);
+  };
+  for (const std::size_t v : variants) pixels += pixelsOf(v) * (rounds + 1);
+  for (int round = 0; round <= rounds; ++round)
+    for (const std::size_t v : variants) {
+      LUCERNA_TRY(sample, stage.draw(v));
+      if (round > 0) take(v, sample);
+      advance(share * pixelsOf(v) / pixels);
+    }
+  return {};
+}
+
+void Run::advance(double share) {
+  const auto units = [&] { return static_cast<std::uint64_t>(done_ * kSceneUnits); };
+  const std::uint64_t before = units();
+  done_ += share;
+  progress_.advance(units() - before);
+}
+
+std::span<const Suite> suites() {
+  static const std::vector<Suite> all{passesSuite(), forwardSuite(), sraaSuite(),
+                                      ssaoSamplesSuite(), shadowSizeSuite()};
+  return all;
+}
+
+Status checkScenes(const BenchOptions& options) {
+  std::vector<std::string> names;
+  for (const std::string& path : options.scenes) {
+    if (!path.starts_with(kBuiltin) && !std::filesystem::exists(path))
+      return error(ErrorKind::Input, "{}: no such file; wanted a scene", path);
+    names.push_back(chosenByUser(path).name);
+  }
+  std::ranges::sort(names);
+  const auto twice = std::ranges::adjacent_find(names);
+  if (twice == names.end()) return {};
+  return error(ErrorKind::Usage, "--scene: two are called '{}' in the tables; rename a file",
+               *twice);
+}
+
+Result<Results> run(const Suite& suite, const BenchOptions& options) {
+  const Extent extent = extentOf(suite, options);
+  Results results{.suite = std::string(suite.name), .context = contextOfMachine()};
+  results.context.quick = options.quick;
+  results.cameras = extent.cameras;
+  results.rounds = extent.rounds;
+  results.context.seed = options.render.seed;
+  const std::vector<SceneChoice> scenes = scenesOf(suite, options, results);
+  for (const std::string& note : results.notes) log::info("{}", note);
+  Progress progress(std::string(suite.name), kSceneUnits * scenes.size());
+  for (const SceneChoice& scene : scenes) {
+    log::debug("{}: {}", suite.name, scene.name);
+    Results withScene = results;
+    const Status measured = measure(suite, scene, options, extent, withScene, progress);
+    if (!measured && measured.error().kind == ErrorKind::Cancelled) {
+      results.cancelled = true;
+      return results;
+    }
+    LUCERNA_TRY_VOID(measured);
+    results = std::move(withScene);
+  }
+  return results;
+}
+
+Result<std::vector<std::string>> writeResults(const std::string& folder, const std::string& name,
+                                              const std::vector<Results>& results) {
+  std::vector<Report> reports;
+  for (const Results& r : results) {
+    const auto suite = std::ranges::find(suites(), r.suite, &Suite::name);
+    reports.push_back(suite->report(r));
+  }
+  const std::vector<std::pair<std::string, std::string>> texts{
+      {".json", googleBenchmarkJson(results)},
+      {".md", benchMarkdown(results, reports)},
+      {".html", benchHtml(results, reports)}};
+  std::vector<std::string> files;
+  for (const auto& [extension, text] : texts) {
+    files.push_back((std::filesystem::path(folder) / (name + extension)).string());
+    LUCERNA_TRY_VOID(writeText(files.back(), text));
+  }
+  return files;
+}
+
+std::string sizeName(uvec2 size) {
+  return fmt::format("{}x{}", size.x, size.y);
+}
+
+// TestScene, Forza, Crytek Sponza, Conference with the dragon, Fabia2; and two of ours.
+std::vector<SceneChoice> thesisScenes() {
+  return {{.name = "materials", .path = "builtin:materials"},
+          {.name = "street-1", .path = "torcs_street-1/street-1.gltf", .outside = true},
+          {.name = "sponza", .path = "crytek_sponza/gltf/sponza.gltf", .outside = true},
+          {.name = "dragon", .path = "stanford_dragon/dragon_871k.glb", .outside = true},
+          {.name = "nightcity", .path = "builtin:nightcity?blocks=24"},
+          {.name = "atrium", .path = "builtin:atrium"},
+          {.name = "mirrors", .path = "builtin:mirrors"}};
+}
+
+}  // namespace lucerna::app::bench

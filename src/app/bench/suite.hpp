@@ -1,0 +1,111 @@
+// What a suite is, and what runs it: scene after scene, in which the suite's variants take turns.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/bench/report.hpp"
+#include "app/bench/results.hpp"
+#include "app/bench/stage.hpp"
+#include "core/progress.hpp"
+
+namespace lucerna::app::bench {
+
+struct SceneChoice {
+  std::string name;
+  std::string path;      // what loadScene() takes; of an outside scene within BenchOptions' folder
+  bool outside = false;  // a file that does not come with Lucerna
+  float elevationDegrees = 40, azimuthDegrees = 30;  // of its sun
+  float eyeHeight = 0;                               // m, see CameraWish
+};
+
+// How much is measured.
+struct Extent {
+  std::vector<uvec2> sizes;  // px
+  int cameras = 1, rounds = 1;
+};
+
+struct BenchOptions {
+  RenderSettings render;  // seed, threads, plugins, shaders; scene, size and pipeline are not read
+  std::vector<std::string> scenes;  // instead of the suite's own
+  std::string sceneFolder;          // of outside scenes; "": there are none
+  bool quick = false;
+  std::vector<uvec2> sizes;  // instead of the suite's own; empty: those
+  std::optional<int> cameras, rounds;
+};
+
+// One scene's share of a suite.
+class Run {
+ public:
+  Run(Stage& s, Results& r, std::string sceneName, Extent e, Progress& progress)
+      : stage(s),
+        results(r),
+        scene(std::move(sceneName)),
+        extent(std::move(e)),
+        progress_(progress) {}
+
+  Stage& stage;
+  Results& results;
+  std::string scene;
+  Extent extent;
+  std::vector<SeededCamera> cameras;  // as many as extent has
+
+  // m: the scale of what is seen, the median of the cameras' sights. Parameters that are lengths
+  // follow from it.
+  float sight() const;
+
+  // Draws each of the variants once to warm up, then `rounds` times in turn. Errors: those of
+  // drawing; ErrorKind::Cancelled.
+  // share: of the scene's work that this is.
+  using Take = std::function<void(std::size_t variant, const Sample& sample)>;
+  Status takeTurns(std::span<const std::size_t> variants, int rounds, double share,
+                   const Take& take);
+  void advance(double share);  // of the scene's work, that was done otherwise
+
+ private:
+  Progress& progress_;
+  double done_ = 0;  // of the scene's work
+};
+
+struct Suite {
+  std::string_view name, summary;
+  std::vector<SceneChoice> scenes;
+  Extent full, quick;
+  bool plain = false;  // StageSettings::plain
+  Status (*measure)(Run& run) = nullptr;
+  Report (*report)(const Results& results) = nullptr;
+};
+
+// In the order in which "all" runs them.
+std::span<const Suite> suites();
+
+// What the program does before it measures: ErrorKind::Usage or Input if a scene that the user
+// names is not there.
+Status checkScenes(const BenchOptions& options);
+
+// Measures. When the user cancels, what is there of whole scenes (Results::cancelled). Errors: a
+// scene that cannot be read, a pipeline that does not fit this driver.
+Result<Results> run(const Suite& suite, const BenchOptions& options);
+
+// FOLDER/NAME.json, .md and .html. Returns the paths.
+Result<std::vector<std::string>> writeResults(const std::string& folder, const std::string& name,
+                                              const std::vector<Results>& results);
+
+// One file each.
+Suite passesSuite();
+Suite forwardSuite();
+Suite sraaSuite();
+Suite ssaoSamplesSuite();
+Suite shadowSizeSuite();
+
+// "800x600"
+std::string sizeName(uvec2 size);
+// The scenes that stand for the thesis' five.
+std::vector<SceneChoice> thesisScenes();
+
+}  // namespace lucerna::app::bench
