@@ -69,7 +69,8 @@ struct LightValues {
 // Element of the storage block ShadowMapBlock (render/shadows.glsl).
 struct ShadowMapValues {
   mat4 clipFromWorld;
-  vec4 texel;          // of size max(x w, y w w) in m at clip-space w; z: 1 / texels of a side
+  vec4 texel;          // xy: m of a texel at clip-space w of 1; z: 1 / texels of a side; w: shear
   vec4 axisW;          // xyz: unit, towards the light along the map's depth
+  vec4 depthPlaneW;    // of directional lights: the depth that the map holds
   uvec4 place;         // layer; 1: of the lamps' texture
 };

@@ -2,10 +2,19 @@
 // Coordinates generated from the eye (eye-linear, sphere-map) are those of the view that is bound: holes made
 // by them are elsewhere in a light's view.
 //   ALPHA_TEST, TEXTURE_ENVIRONMENT  see render/object_surface.glsl
+//   LINEAR_DEPTH                     depth as a plane in world space gives it, whatever the projection
 // variant: ALPHA_TEST=1
+// variant: LINEAR_DEPTH=1
 #include "render/object_surface.glsl"
 
+#ifdef LINEAR_DEPTH
+uniform vec4 depthPlaneW;
+#endif
+
 void main() {
+#ifdef LINEAR_DEPTH
+  gl_FragDepth = dot(depthPlaneW.xyz, positionW) + depthPlaneW.w;
+#endif
 #ifdef ALPHA_TEST
   testAlpha(materialColor().a);
 #endif

@@ -36,8 +36,9 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directio
     const gpu::Texture& texture = map.local ? shadowMaps.local : shadowMaps.directional;
     const float texel = 1.f / static_cast<float>(texture.width());
     maps.push_back({.clipFromWorld = map.projection.clipFromWorld(),
-                    .texel = vec4(map.projection.side * texel, texel, 0.f),
+                    .texel = vec4(map.projection.side * texel, texel, map.projection.shear),
                     .axisW = glm::transpose(map.projection.viewFromWorld)[2],
+                    .depthPlaneW = map.projection.depthPlaneW,
                     .place = uvec4(map.layer, map.local ? 1 : 0, 0, 0)});
   }
   std::vector<uvec4> lights;

@@ -12,13 +12,14 @@ namespace {
 // forgives it.
 constexpr float kNearShare = 1e-4f;
 
-// What is nearer than this part of the farthest distance does not count for the warp. A near plane
-// is chosen so that nothing is cut off, and the sharpness would all go to the air behind it.
+// What is nearer than this part of the farthest distance does not count for the paper's warp. A
+// near plane is chosen so that nothing is cut off, and the sharpness would all go to the air behind
+// it.
 constexpr float kNearestShare = 0.005f;
 
 struct Range {
-  float low = std::numeric_limits<float>::infinity();
-  float high = -std::numeric_limits<float>::infinity();
+  float low = std::numeric_limits<float>::infinity(),
+        high = -std::numeric_limits<float>::infinity();
   void grow(float value) { low = std::min(low, value), high = std::max(high, value); }
   float length() const { return high - low; }
 };
@@ -47,6 +48,18 @@ vec3 acrossLight(vec3 toLightW, const Viewer& viewer) {
   return normalizedOr(across(viewer.forwardW), normalizedOr(across(up), anyAcross(toLightW)));
 }
 
+// The part of a ray that lies inside the box, from 0 on; low > high if none does.
+Range insideOf(const Aabb& box, vec3 from, vec3 direction) {
+  Range range{0.f, std::numeric_limits<float>::infinity()};
+  for (int axis = 0; axis < 3; ++axis) {
+    float a = (box.min[axis] - from[axis]) / direction[axis];
+    float b = (box.max[axis] - from[axis]) / direction[axis];
+    if (a > b) std::swap(a, b);
+    range.low = std::max(range.low, a), range.high = std::min(range.high, b);
+  }
+  return range;
+}
+
 // Rows: unit axes of the space.
 mat4 spaceOf(vec3 right, vec3 up, vec3 back, vec3 origin) {
   const mat3 axes = glm::transpose(mat3(right, up, back));
@@ -58,14 +71,11 @@ mat4 spaceOf(vec3 right, vec3 up, vec3 back, vec3 origin) {
 }  // namespace
 
 Viewer viewerOf(std::span<const scene::View> views) {
-  Viewer viewer{
-      .forwardW = vec3(0.f), .upW = vec3(0.f), .near = std::numeric_limits<float>::infinity()};
+  Viewer viewer{.forwardW = vec3(0.f), .upW = vec3(0.f)};
   for (const scene::View& view : views) {
     viewer.positionW += view.positionW() / static_cast<float>(views.size());
     viewer.forwardW -= vec3(view.worldFromView[2]);
     viewer.upW += vec3(view.worldFromView[1]);
-    viewer.near = std::min(viewer.near, std::max(view.near, 0.f));
-    viewer.orthographic = viewer.orthographic || view.orthographic;
   }
   viewer.forwardW = normalizedOr(viewer.forwardW, {0.f, 0.f, -1.f});
   viewer.upW = normalizedOr(viewer.upW, {0.f, 1.f, 0.f});
@@ -86,15 +96,82 @@ std::vector<vec3> visibleBody(std::span<const scene::View> views, const Aabb& bo
   return body;
 }
 
-float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, const Viewer& viewer) {
-  if (viewer.orthographic) return 0.f;
-  const float sine = glm::length(glm::cross(directionW, viewer.forwardW));
-  const float depth = along(acrossLight(-directionW, viewer), bodyW).length();
-  const Range view = along(viewer.forwardW, bodyW);
-  const float eye = glm::dot(viewer.forwardW, viewer.positionW);
-  const float zn = std::max({view.low - eye, viewer.near, kNearestShare * (view.high - eye)});
+std::vector<vec3> visibleSamples(std::span<const scene::View> views, const Aabb& boxW) {
+  constexpr int kSide = 5, kDepths = 8;
+  std::vector<vec3> samples;
+  for (const scene::View& view : views) {
+    const mat4 worldFromClip = glm::inverse(view.clipFromWorld());
+    for (int pixel = 0; pixel < kSide * kSide; ++pixel) {
+      const vec2 ndc = (2.f * vec2(pixel % kSide, pixel / kSide) + 1.f) / float(kSide) - 1.f;
+      const vec4 onNear = worldFromClip * vec4(ndc, 1.f, 1.f);
+      const vec4 beyond = worldFromClip * vec4(ndc, 0.5f, 1.f);
+      const vec3 from = vec3(onNear) / onNear.w;
+      const vec3 direction = glm::normalize(vec3(beyond) / beyond.w - from);
+      const Range inside = insideOf(boxW, from, direction);
+      for (int i = 0; i < kDepths && inside.high > inside.low; ++i) {
+        const float share = (static_cast<float>(i) + 0.5f) / kDepths;
+        const float distance = glm::mix(inside.low, inside.high, share * share);
+        samples.push_back(from + distance * direction);
+      }
+    }
+  }
+  return samples;
+}
+
+namespace {
+
+// EGSR 2004, section 4.2: n = (z_n + sqrt(z_n z_f)) / sin(gamma), z_f = z_n + d sin(gamma).
+float warpOfThePaper(float depth, float sine, Range distances) {
+  const float zn = std::max(distances.low, kNearestShare * distances.high);
   const float zf = zn + depth * sine;
-  return depth * sine / (zn + std::sqrt(zn * zf));
+  return zn > 0.f ? depth * sine / (zn + std::sqrt(zn * zf)) : 0.f;
+}
+
+// The warp from 0 to `most` for which a texel's area has the least geometric mean over the samples.
+// In the terms of directionalProjection() a texel at t covers, up to a factor,
+// half(warp) w^3 / (1 + warp).
+float warpOfSmallestTexels(float most, std::span<const vec2> body, std::span<const float> samples) {
+  const auto logArea = [&](float warp) {
+    Range width;
+    for (const vec2& point : body) width.grow(point.x / (1.f + warp * point.y));
+    double sum = 0;
+    for (const float t : samples) sum += std::log1p(warp * t);
+    return std::log(width.length()) - std::log1p(warp) +
+           3. * sum / static_cast<double>(std::max<std::size_t>(samples.size(), 1));
+  };
+  // Golden sections of the logarithm of 1 + warp.
+  constexpr float kGolden = 0.61803399f;
+  float low = 0.f, high = std::log1p(most);
+  for (int i = 0; i < 20; ++i) {
+    const float a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    if (logArea(std::expm1(a)) <= logArea(std::expm1(b))) {
+      high = b;
+    } else {
+      low = a;
+    }
+  }
+  return low == 0.f ? 0.f : std::expm1(0.5f * (low + high));
+}
+
+}  // namespace
+
+float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, std::span<const vec3> samplesW,
+                    const Viewer& viewer) {
+  const vec3 up = acrossLight(-directionW, viewer), right = glm::cross(up, -directionW);
+  const Range length = along(up, bodyW), view = along(viewer.forwardW, bodyW);
+  const auto shareOf = [&](vec3 point) {
+    return (glm::dot(up, point) - length.low) / std::max(length.length(), 1e-20f);
+  };
+  std::vector<vec2> body;
+  std::vector<float> samples;
+  for (const vec3& point : bodyW)
+    body.emplace_back(glm::dot(right, point - viewer.positionW), shareOf(point));
+  for (const vec3& point : samplesW) samples.push_back(std::max(shareOf(point), 0.f));
+
+  const float sine = glm::length(glm::cross(directionW, viewer.forwardW));
+  const float eye = glm::dot(viewer.forwardW, viewer.positionW);
+  const float most = warpOfThePaper(length.length(), sine, {view.low - eye, view.high - eye});
+  return warpOfSmallestTexels(most, body, samples);
 }
 
 // With t from 0 to 1 along the body and w = 1 + warp t, the second axis maps to
@@ -136,6 +213,9 @@ ShadowProjection directionalProjection(vec3 directionW, std::span<const vec3> bo
   clip[2].z = 1.f / height.length();
   clip[3].z = -height.low / height.length();
   result.side = vec2(2.f * half, depth / (1.f + warp)) / inner;
+  result.shear = slope * std::max(std::abs(width.low), std::abs(width.high));
+  result.depthPlaneW = glm::transpose(result.viewFromWorld)[2] / height.length();
+  result.depthPlaneW.w -= height.low / height.length();
   return result;
 }
 
@@ -174,7 +254,7 @@ std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
   widened(height);
   result.clipFromView = frustumReversed(near * width.low, near * width.high, near * height.low,
                                         near * height.high, near, far);
-  result.side = vec2(std::max(width.length(), height.length()), 0.f);
+  result.side = vec2(std::max(width.length(), height.length()));
   return result;
 }
 

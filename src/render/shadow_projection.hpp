@@ -10,12 +10,18 @@
 
 namespace lucerna::render {
 
-// Light-space depth is reversed: 1 nearest to the light. The light's view space is rigid, so that
-// its depth is in metres before projection.
+// Light-space depth is reversed: 1 nearest to the light. The light's view space is rigid: metres.
 struct ShadowProjection {
   mat4 viewFromWorld{1.f}, clipFromView{1.f};
-  // What the map's whole side covers, in m, at a point of clip-space w: max(x * w, y * w * w).
+  // What a row and a column of the map cover, in m, at a point of clip-space w: of lamps x * w
+  // both; of directional lights x * w and y * w * w, and a step of the latter leads aside by up to
+  // `shear` of its length, for columns of a warped map are not parallel.
   vec2 side{0.f};
+  float shear = 0.f;
+  // Of directional lights, the depth that the map holds: dot(xyz, positionW) + w. Under a warp that
+  // of clip space is not linear along the map, so that a wide texel holds the depths of other
+  // distances: at the far end of a city metres of them.
+  vec4 depthPlaneW{0.f};
 
   mat4 clipFromWorld() const { return clipFromView * viewFromWorld; }
 };
@@ -25,8 +31,6 @@ struct Viewer {
   vec3 positionW{0.f};
   vec3 forwardW{0.f, 0.f, -1.f};  // unit
   vec3 upW{0.f, 1.f, 0.f};        // unit
-  float near = 0.1f;              // m
-  bool orthographic = false;
 };
 Viewer viewerOf(std::span<const scene::View> views);
 
@@ -35,14 +39,21 @@ Viewer viewerOf(std::span<const scene::View> views);
 std::vector<vec3> visibleBody(std::span<const scene::View> views, const Aabb& boxW,
                               std::span<const vec4> furtherPlanes = {});
 
-// d / n of light-space perspective shadow maps: d the body's depth along the view in light space, n
-// the distance of the warp's centre before it. 0: none, a uniform map; it falls to 0 continuously
-// as light and view become parallel. Wimmer, Scherzer and Purgathofer, "Light Space Perspective
-// Shadow Maps", EGSR 2004, section 4.2: n = (z_n + sqrt(z_n z_f)) / sin(gamma).
-float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, const Viewer& viewer);
+// Points all over the views, more of them near: at distances as the squares of even steps.
+std::vector<vec3> visibleSamples(std::span<const scene::View> views, const Aabb& boxW);
+
+// The strength of a warp, d / n in the terms of light-space perspective shadow maps: d the body's
+// depth along the view in light space, n the distance of the warp's centre before it. 0: none, a
+// uniform map. At most what the paper finds for a view across the light, which falls to 0 as they
+// become parallel; less where the geometric mean of the areas that texels cover at the samples is
+// then smaller. (Where light and view are nearly in line the view spreads to all sides: the
+// paper's warp would favour one of them.)
+float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, std::span<const vec3> samplesW,
+                    const Viewer& viewer);
 
 // Of a directional light that shines along directionW (unit) onto the body, past casters in their
-// box. margin: share of the map's side that stays free at each edge, for filters.
+// box. With a warp: Wimmer, Scherzer and Purgathofer, "Light Space Perspective Shadow Maps", EGSR
+// 2004. margin: share of the map's side that stays free at each edge, for filters.
 ShadowProjection directionalProjection(vec3 directionW, std::span<const vec3> bodyW,
                                        const Aabb& castersW, const Viewer& viewer, float warp,
                                        float margin);

@@ -33,11 +33,17 @@ float filteredShadow(ShadowMapValues map, vec3 uvDepth) {
 // to its reach over the map times the surface's slope there. Moved off the surface by reach times the
 // sine of the slope, a plane never shadows itself.
 vec3 movedForShadow(ShadowMapValues map, float w, vec3 positionW, vec3 normalW, vec3 toLightW) {
-  float texel = max(map.texel.x * w, map.texel.y * w * w);              // m
-  float reach = (float(shadowFilterRadius) + 1.0) * 1.41421356 * texel;  // to a corner
+  vec2 texel = map.texel.xy * (map.place.y == 0u ? vec2(w, w * w) : vec2(w));  // m
+  float corner = length(vec2(texel.x + map.texel.w * texel.y, texel.y));
+  float reach = (float(shadowFilterRadius) + 1.0) * corner;
   float cosine = dot(normalW, map.axisW.xyz);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
   return positionW + normalW * (shadowNormalBias * reach * sine) + toLightW * shadowBias;
+}
+
+float depthInMap(ShadowMapValues map, vec4 clip, vec3 positionW) {
+  return map.place.y == 0u ? dot(map.depthPlaneW.xyz, positionW) + map.depthPlaneW.w
+                           : clip.z / clip.w;
 }
 
 // Share of the light (index as in LightBlock) that arrives, 0 to 1. toLightW: unit, from the point.
@@ -54,7 +60,8 @@ float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) 
     found = true;
     vec3 movedW = movedForShadow(shadowMaps[i], clip.w, positionW, normalW, toLightW);
     clip = shadowMaps[i].clipFromWorld * vec4(movedW, 1.0);
-    visibility = filteredShadow(shadowMaps[i], vec3(0.5 * clip.xy / clip.w + 0.5, clip.z / clip.w));
+    visibility = filteredShadow(shadowMaps[i], vec3(0.5 * clip.xy / clip.w + 0.5,
+                                                    depthInMap(shadowMaps[i], clip, movedW)));
   }
   return visibility;
 }

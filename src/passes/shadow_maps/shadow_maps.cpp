@@ -75,7 +75,7 @@ std::vector<float> splitsOf(const render::Viewer& viewer, const std::vector<vec3
     const float share = static_cast<float>(i) / static_cast<float>(count);
     const float equal = glm::mix(first, far, share);
     const float proportional = first * std::pow(far / first, share);
-    splits.push_back(viewer.orthographic ? equal : glm::mix(equal, proportional, kSplitShare));
+    splits.push_back(glm::mix(equal, proportional, kSplitShare));
   }
   splits.push_back(far);
   return splits;
@@ -136,10 +136,13 @@ void ShadowMaps::planDirectional(const Params& params, const Ports& ports, const
   const float margin = marginOf(params.size);
   if (params.method != Method::Cascades) {
     const float sine = glm::length(glm::cross(directionW, viewer.forwardW));
-    const float warp = params.method == Method::Uniform ? 0.f
-                       : params.warp == Warp::Automatic
-                           ? render::automaticWarp(directionW, body, viewer)
-                           : params.warpStrength * sine;
+    float warp = 0.f;
+    if (params.method == Method::Lispsm)
+      warp =
+          params.warp == Warp::Set
+              ? params.warpStrength * sine
+              : render::automaticWarp(directionW, body,
+                                      render::visibleSamples(ports.views->views, castersW), viewer);
     addMap(ports, light,
            render::directionalProjection(directionW, body, castersW, viewer, warp, margin), false);
     return;
@@ -192,6 +195,14 @@ void ShadowMaps::plan(const Params& params, const Ports& ports) {
   leftOut_ = std::max(leftOut_, leftOut);
 }
 
+const gpu::Program& ShadowMaps::programOf(const render::ShadowProjection& projection,
+                                          const scene::Material& material) {
+  if (projection.shear == 0.f) return programs_.of(material);
+  const gpu::Program& program = warpedPrograms_.of(material);
+  program.set("depthPlaneW", projection.depthPlaneW);
+  return program;
+}
+
 void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
                       Drawing& drawing) {
   const render::GpuScene& gpuScene = *ports.scene;
@@ -219,7 +230,7 @@ void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::Sha
   // Back faces throw shadows, too: a wall is no less opaque from behind.
   drawList(rendering, gpuScene, drawing.list,
            {.depthTest = true, .depthWrite = true, .cull = gpu::Cull::None},
-           [&](const scene::Material& material) { return &programs_.of(material); });
+           [&](const scene::Material& material) { return &programOf(map.projection, material); });
 }
 
 void ShadowMaps::execute(graph::PassContext& context, const Params& params, const Ports& ports) {

@@ -34,7 +34,9 @@ class ShadowMaps {
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit ShadowMaps(gpu::Device& device) : programs_(device, "render/depth.frag") {}
+  explicit ShadowMaps(gpu::Device& device)
+      : programs_(device, "render/depth.frag"),
+        warpedPrograms_(device, "render/depth.frag", {{"LINEAR_DEPTH", "1"}}) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
@@ -55,7 +57,10 @@ class ShadowMaps {
   void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
             Drawing& drawing);
 
-  render::ObjectPrograms programs_;
+  const gpu::Program& programOf(const render::ShadowProjection& projection,
+                                const scene::Material& material);
+
+  render::ObjectPrograms programs_, warpedPrograms_;
   std::vector<Drawing> drawings_;       // kept for their buffers
   std::vector<std::uint32_t> visible_;  // kept for its memory
   int directionalLayers_ = 0, localLayers_ = 0;

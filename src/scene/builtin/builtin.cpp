@@ -35,6 +35,7 @@ Result<Scene> readNightCity(builtin::OptionReader& reader) {
   reader.number("rotate", options.rotate, -360, 360);
   reader.number("jitter", options.jitter, 0, 1);
   reader.pair("sun", options.sun, vec2(0, -360), vec2(90, 360));
+  reader.flag("lamps", options.lamps);
   reader.integer("seed", options.seed, 0, ~0u);
   LUCERNA_TRY_VOID(reader.finish());
   return builtin::makeNightCity(options);

@@ -22,6 +22,7 @@
 //   rotate=0         degrees about the vertical
 //   jitter=0         0 to 1: how far single buildings turn away from the street
 //   sun=E,A          adds a sun: elevation 0 to 90, azimuth in degrees (0: from -z, 90: from +x)
+//   lamps=1          0: switched off
 //   seed=1
 //
 // builtin:penumbra   occluders whose penumbrae are known in closed form (penumbra.hpp)

@@ -298,6 +298,7 @@ TEST(NightCity, SunShinesFromWhereItIsAskedFor) {
   EXPECT_NEAR(sun.directionW.x, -std::cos(glm::radians(30.f)), 1e-4);
   EXPECT_NEAR(sun.directionW.y, -0.5f, 1e-4);
   EXPECT_NEAR(sun.directionW.z, 0.f, 1e-4);
+  EXPECT_EQ(placeLights(make("builtin:nightcity?sun=30,90&lamps=0")).size(), 1u);
 }
 
 TEST(NightCity, FortyBlocksHaveMillionsOfTrianglesInLittleMemory) {

@@ -23,6 +23,7 @@ struct NightCityOptions {
   float rotate = 0;         // degrees
   float jitter = 0;         // 0 to 1
   std::optional<vec2> sun;  // elevation, azimuth in degrees
+  bool lamps = true;        // on
   std::uint32_t seed = 1;
 };
 

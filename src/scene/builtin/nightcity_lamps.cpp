@@ -207,6 +207,7 @@ void addLamps(City& city) {
                                          city.materials.metal, lamp.position, lamp.angle);
     addObject(scene, body, lamp.ceiling ? boxGlass : poleGlass, city.materials.glows[lamp.tint]);
     Light light = lightOf(lamp, i);
+    light.on = city.options.lamps;
     Node node;
     node.name = light.name;
     node.parent = body;
