@@ -26,8 +26,8 @@ int list(bool json) {
   Json document = Json::array();
   std::string text;
   for (const Suite& suite : app::bench::suites()) {
-    document.push_back({{"suite", suite.name}, {"summary", suite.summary}});
-    text += fmt::format("{:14} {}\n", suite.name, suite.summary);
+    document.push_back({{"suite", suite.name}, {"title", suite.title}});
+    text += fmt::format("{:14} {}\n", suite.name, suite.title);
   }
   text += fmt::format("{:14} one after the other\n", kAll);
   if (json)

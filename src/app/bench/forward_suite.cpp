@@ -20,25 +20,21 @@ Chain chainOf(const std::string& name) {
 
 // The samples of a name are in the order of the path, all rounds of a frame together.
 Status measure(Run& run) {
-  std::vector<std::size_t> variants;
-  std::vector<std::vector<std::string>> names;
   for (const uvec2 size : run.extent.sizes)
-    for (const std::string& name : {kForward, kDeferred}) {
-      LUCERNA_TRY(variant, run.stage.add({.chain = chainOf(name), .size = size}));
-      variants.push_back(variant);
-      names.push_back({sizeName(size), name, run.scene});
-    }
+    for (const std::string& name : {kForward, kDeferred})
+      LUCERNA_TRY_VOID(
+          run.add({sizeName(size), name, run.scene}, {.chain = chainOf(name), .size = size}));
   const CameraPath path = pathThrough(run.cameras);
   const int frames = kFramesPerCamera * (run.extent.cameras - 1) + 1;
+  const Run::Turns turns{.take = [&](const Name& name, const Sample& sample) {
+    Measurement& m = run.results.at(name);
+    m.add(sample.realMs, sample.cpuMs);
+    m.count("draws", static_cast<double>(sample.counters.draws));
+    m.count("primitives", static_cast<double>(sample.counters.primitives));
+  }};
   for (int frame = 0; frame < frames; ++frame) {
     run.stage.look(path.at(static_cast<double>(frame) / kFramesPerCamera));
-    LUCERNA_TRY_VOID(run.takeTurns(
-        variants, run.extent.rounds, 1.0 / frames, [&](std::size_t variant, const Sample& sample) {
-          Measurement& m = run.results.at(names[variant]);
-          m.add(sample.realMs, sample.cpuMs);
-          m.count("draws", static_cast<double>(sample.counters.draws));
-          m.count("primitives", static_cast<double>(sample.counters.primitives));
-        }));
+    LUCERNA_TRY_VOID(run.takeTurns(turns, 1.0 / frames));
   }
   return {};
 }
@@ -76,28 +72,27 @@ LinePlot pathPlot(const Results& results, const std::string& size, const std::st
   return plot;
 }
 
-Report report(const Results& results) {
-  Report report{.title =
-                    "forward: forward against deferred shading (tables 4.3 and 4.4, figure 4.2)"};
-  report.blocks.emplace_back(
+std::vector<Block> report(const Results& results) {
+  std::vector<Block> blocks;
+  blocks.emplace_back(
       "Time of a whole frame in ms: median (quartiles) over all frames of a path through the "
       "seeded "
       "cameras. Both chains shade the same materials by the same code, lit by one light.");
   const std::vector<std::string> sizes = results.parts(0);
-  for (const std::string& size : sizes) report.blocks.emplace_back(timesOf(results, size));
-  report.blocks.emplace_back(
+  for (const std::string& size : sizes) blocks.emplace_back(timesOf(results, size));
+  blocks.emplace_back(
       drawsTable(results, sizes.front(), "chain", {kForward, kDeferred}, results.parts(2)));
   for (const std::string& size : sizes)
     for (const std::string& chain : {kForward, kDeferred})
-      report.blocks.emplace_back(pathPlot(results, size, chain));
-  return report;
+      blocks.emplace_back(pathPlot(results, size, chain));
+  return blocks;
 }
 
 }  // namespace
 
 Suite forwardSuite() {
   return {.name = "forward",
-          .summary = "forward against deferred shading along a path (tables 4.3, 4.4, figure 4.2)",
+          .title = "forward against deferred shading (tables 4.3 and 4.4, figure 4.2)",
           .scenes = thesisScenes(),
           .full = {.sizes = {{800, 600}, {1366, 768}}, .cameras = 13, .rounds = 3},
           .quick = {.sizes = {{320, 240}, {546, 307}}, .cameras = 4, .rounds = 2},

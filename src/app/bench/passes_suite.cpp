@@ -62,34 +62,23 @@ void add(Measurement& m, const Cost& cost) {
   m.count("texture_bytes", static_cast<double>(cost.textureBytes));
 }
 
+// Variants are named by size and chain; measurements by size, pass and scene.
 Status measure(Run& run) {
-  struct Lane {
-    std::string size;
-    bool other = false;
-  };
-  std::vector<std::size_t> variants;
-  std::vector<Lane> lanes;
+  const std::string thesis = "thesis", other = "other";
   for (const uvec2 size : run.extent.sizes)
-    for (const bool other : {false, true}) {
-      const float sight = run.sight();
-      const Chain chain = other ? otherChain(sight) : thesisChain(sight);
-      LUCERNA_TRY(variant, run.stage.add({.chain = chain, .size = size, .profiled = true}));
-      variants.push_back(variant);
-      lanes.push_back({sizeName(size), other});
-    }
-  for (const SeededCamera& camera : run.cameras) {
-    run.stage.look(camera.pose);
-    LUCERNA_TRY_VOID(run.takeTurns(
-        variants, run.extent.rounds, 1.0 / static_cast<double>(run.cameras.size()),
-        [&](std::size_t variant, const Sample& sample) {
-          const Lane& lane = lanes[variant];
-          for (const graph::StepProfile& step : sample.profile.steps)
-            if (const std::string label = labelOf(step.row, lane.other); !label.empty())
-              add(run.results.at({lane.size, label, run.scene}), step);
-          if (!lane.other) add(run.results.at({lane.size, kFrame, run.scene}), sample.profile);
-        }));
-  }
-  return {};
+    for (const std::string& chain : {thesis, other})
+      LUCERNA_TRY_VOID(
+          run.add({sizeName(size), chain},
+                  {.chain = chain == other ? otherChain(run.sight()) : thesisChain(run.sight()),
+                   .size = size,
+                   .profiled = true}));
+  return run.takeTurnsEverywhere({.take = [&](const Name& name, const Sample& sample) {
+    const bool isOther = name[1] == other;
+    for (const graph::StepProfile& step : sample.profile.steps)
+      if (const std::string label = labelOf(step.row, isOther); !label.empty())
+        add(run.results.at({name[0], label, run.scene}), step);
+    if (!isOther) add(run.results.at({name[0], kFrame, run.scene}), sample.profile);
+  }});
 }
 
 // The passes of the thesis' chain that take longest.
@@ -126,10 +115,9 @@ BarPlot barsOf(const Results& results, const std::string& size) {
   return plot;
 }
 
-Report report(const Results& results) {
-  Report report{.title = "passes: the cost of every pass (tables 4.5 and 4.6, figure 4.3)"};
-  if (results.measurements.empty()) return report;
-  report.blocks.emplace_back(
+std::vector<Block> report(const Results& results) {
+  std::vector<Block> blocks;
+  blocks.emplace_back(
       "Time in ms: median (quartiles) over all cameras and rounds. Below the whole frame stand the "
       "passes of a second chain, which is drawn in turn with it: Lighting without shadows, other "
       "methods of ScreenSpaceAo and DepthOfField, and Fxaa. Radius, lens and focus follow each "
@@ -137,29 +125,29 @@ Report report(const Results& results) {
   const std::vector<std::string> sizes = results.parts(0);
   const std::vector<std::string> passes = results.parts(1), scenes = results.parts(2);
   for (const std::string& size : sizes)
-    report.blocks.emplace_back(tableOf(size + ", ms", "pass", passes, scenes,
-                                       [&](const std::string& pass, const std::string& scene) {
-                                         return spreadText(results.times({size, pass, scene}));
-                                       }));
+    blocks.emplace_back(tableOf(size + ", ms", "pass", passes, scenes,
+                                [&](const std::string& pass, const std::string& scene) {
+                                  return spreadText(results.times({size, pass, scene}));
+                                }));
   if (sizes.size() > 1)
-    report.blocks.emplace_back(
-        tableOf(sizes.back() + " against " + sizes.front() + ", ratio of medians", "pass", passes,
-                scenes, [&](const std::string& pass, const std::string& scene) {
-                  return ratioText(results.times({sizes.back(), pass, scene}),
-                                   results.times({sizes.front(), pass, scene}));
-                }));
-  report.blocks.emplace_back(drawsTable(results, sizes.front(), "pass", passes, scenes));
-  for (const std::string& size : sizes) report.blocks.emplace_back(barsOf(results, size));
-  return report;
+    blocks.emplace_back(tableOf(sizes.back() + " against " + sizes.front() + ", ratio of medians",
+                                "pass", passes, scenes,
+                                [&](const std::string& pass, const std::string& scene) {
+                                  return ratioText(results.times({sizes.back(), pass, scene}),
+                                                   results.times({sizes.front(), pass, scene}));
+                                }));
+  blocks.emplace_back(drawsTable(results, sizes.front(), "pass", passes, scenes));
+  for (const std::string& size : sizes) blocks.emplace_back(barsOf(results, size));
+  return blocks;
 }
 
 }  // namespace
 
 Suite passesSuite() {
   return {.name = "passes",
-          .summary = "time of every pass, two resolutions (tables 4.5, 4.6)",
+          .title = "the cost of every pass (tables 4.5 and 4.6, figure 4.3)",
           .scenes = thesisScenes(),
-          .full = {.sizes = {{800, 600}, {1600, 1200}}, .cameras = 5, .rounds = 3},
+          .full = {.sizes = {{800, 600}, {1600, 1200}}, .cameras = 5, .rounds = 2},
           .quick = {.sizes = {{320, 240}, {640, 480}}, .cameras = 1, .rounds = 2},
           .measure = measure,
           .report = report};

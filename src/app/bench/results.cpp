@@ -29,7 +29,7 @@ std::string listed(const std::vector<double>& values) {
   return text;
 }
 
-bool beginsWith(const std::vector<std::string>& name, const std::vector<std::string>& begin) {
+bool beginsWith(const Name& name, const Name& begin) {
   return name.size() >= begin.size() && std::equal(begin.begin(), begin.end(), name.begin());
 }
 
@@ -75,26 +75,25 @@ Context contextOfMachine() {
   return context;
 }
 
-Measurement& Results::at(const std::vector<std::string>& name) {
+Measurement& Results::at(const Name& name) {
   const auto found = std::ranges::find(measurements, name, &Measurement::name);
   if (found != measurements.end()) return *found;
   return measurements.emplace_back(Measurement{.name = name});
 }
 
-const Measurement* Results::find(const std::vector<std::string>& name) const {
+const Measurement* Results::find(const Name& name) const {
   const auto found = std::ranges::find(measurements, name, &Measurement::name);
   return found == measurements.end() ? nullptr : &*found;
 }
 
-std::vector<double> Results::times(const std::vector<std::string>& begin) const {
+std::vector<double> Results::times(const Name& begin) const {
   std::vector<double> all;
   for (const Measurement& m : measurements)
     if (beginsWith(m.name, begin)) all.insert(all.end(), m.realMs.begin(), m.realMs.end());
   return all;
 }
 
-std::vector<double> Results::samples(const std::vector<std::string>& begin,
-                                     std::string_view counter) const {
+std::vector<double> Results::samples(const Name& begin, std::string_view counter) const {
   std::vector<double> all;
   for (const Measurement& m : measurements)
     if (const auto& own = m.samples(counter); beginsWith(m.name, begin))
@@ -106,8 +105,7 @@ void Results::note(const std::string& text) {
   if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
 }
 
-std::vector<std::string> Results::parts(std::size_t place,
-                                        const std::vector<std::string>& begin) const {
+std::vector<std::string> Results::parts(std::size_t place, const Name& begin) const {
   std::vector<std::string> found;
   for (const Measurement& m : measurements)
     if (m.name.size() > place && beginsWith(m.name, begin) &&

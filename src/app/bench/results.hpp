@@ -14,9 +14,11 @@ struct Counter {
   std::vector<double> samples;
 };
 
+// From the general to the special, as the suite says: {"800x600", "GBuffer", "atrium"}.
+using Name = std::vector<std::string>;
+
 struct Measurement {
-  // From the general to the special, as the suite says: {"800x600", "GBuffer", "atrium"}.
-  std::vector<std::string> name{};
+  Name name{};
   std::vector<double> realMs{};  // one a frame, until the GPU has finished
   std::vector<double> cpuMs{};   // one a frame, until the commands are given
   std::vector<Counter> counters{};
@@ -55,17 +57,15 @@ struct Results {
   bool cancelled = false;            // scenes are missing
 
   // The measurement of that name, made if there is none.
-  Measurement& at(const std::vector<std::string>& name);
-  const Measurement* find(const std::vector<std::string>& name) const;
+  Measurement& at(const Name& name);
+  const Measurement* find(const Name& name) const;
   // The samples of all measurements whose names begin so: of real time, or of a counter.
-  std::vector<double> times(const std::vector<std::string>& begin) const;
-  std::vector<double> samples(const std::vector<std::string>& begin,
-                              std::string_view counter) const;
+  std::vector<double> times(const Name& begin) const;
+  std::vector<double> samples(const Name& begin, std::string_view counter) const;
   // Adds the note unless it is there already.
   void note(const std::string& text);
   // The different parts at `place` of names that begin with `begin`, in order.
-  std::vector<std::string> parts(std::size_t place,
-                                 const std::vector<std::string>& begin = {}) const;
+  std::vector<std::string> parts(std::size_t place, const Name& begin = {}) const;
 };
 
 // As Google Benchmark writes it (--benchmark_out, json_schema_version 1), so that its tools read

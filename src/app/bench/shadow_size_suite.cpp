@@ -8,8 +8,6 @@ namespace {
 
 const std::vector<std::string> kMethods{"uniform", "lispsm", "cascades"};
 
-using Name = std::vector<std::string>;  // method, size of the map, scene
-
 std::vector<std::string> mapSizes(const Results& results) {
   std::vector<std::string> sizes{"512", "1024", "2048", "4096", "8192"};
   if (results.context.quick) sizes.resize(3);
@@ -33,7 +31,8 @@ Image shown(const Image& linear) {
 }
 
 // Shadows are hard, for the sun has no size, and exact: one ray decides a pixel.
-Result<Image> traced(const Run& run, uvec2 size) {
+Result<Image> traced(const Run& run) {
+  const uvec2 size = run.extent.sizes.front();
   const trace::ReferencePicture picture =
       trace::renderReference(run.stage.scene(), {.size = size,
                                                  .view = run.stage.view(size),
@@ -57,37 +56,29 @@ void addTimes(Measurement& m, const graph::FrameProfile& profile) {
   m.count("maps_ms", maps);
 }
 
+// Measurements are named by method, size of the map, and scene.
 Status measure(Run& run) {
-  const uvec2 size = run.extent.sizes.front();
-  std::vector<std::size_t> variants;
-  std::vector<Name> names;
   for (const std::string& mapSize : mapSizes(run.results))
-    for (const std::string& method : kMethods) {
-      LUCERNA_TRY(
-          variant,
-          run.stage.add({.chain = chainOf(method, mapSize), .size = size, .profiled = true}));
-      variants.push_back(variant);
-      names.push_back({method, mapSize, run.scene});
-    }
-  for (const SeededCamera& camera : run.cameras) {
-    run.stage.look(camera.pose);
-    LUCERNA_TRY(truth, traced(run, size));
-    for (const std::size_t variant : variants) {
-      Image picture;
-      LUCERNA_TRY_VOID(run.stage.draw(variant, &picture));
-      const Image test = converted(picture, ComponentType::F32, 3);
-      Measurement& m = run.results.at(names[variant]);
-      m.count("flip", flipLdr(truth, test).mean);
-      m.count("psnr", pixelMetrics(truth, test).psnr);
-    }
-    run.advance(0.5 / static_cast<double>(run.cameras.size()));  // the errors
-    LUCERNA_TRY_VOID(run.takeTurns(variants, run.extent.rounds,
-                                   0.5 / static_cast<double>(run.cameras.size()),
-                                   [&](std::size_t variant, const Sample& sample) {
-                                     addTimes(run.results.at(names[variant]), sample.profile);
-                                   }));
-  }
-  return {};
+    for (const std::string& method : kMethods)
+      LUCERNA_TRY_VOID(run.add(
+          {method, mapSize, run.scene},
+          {.chain = chainOf(method, mapSize), .size = run.extent.sizes.front(), .profiled = true}));
+  Image truth;
+  return run.takeTurnsEverywhere(
+      {.prepare = [&]() -> Status {
+         LUCERNA_TRY(picture, traced(run));
+         truth = std::move(picture);
+         return {};
+       },
+       .take = [&](const Name& name,
+                   const Sample& sample) { addTimes(run.results.at(name), sample.profile); },
+       .see =
+           [&](const Name& name, const Image& picture) {
+             const Image test = converted(picture, ComponentType::F32, 3);
+             Measurement& m = run.results.at(name);
+             m.count("flip", flipLdr(truth, test).mean);
+             m.count("psnr", pixelMetrics(truth, test).psnr);
+           }});
 }
 
 std::string flipText(const std::vector<double>& flips) {
@@ -112,47 +103,42 @@ LinePlot plotOf(const Results& results, std::string title, std::string yLabel, b
   return plot;
 }
 
-Report report(const Results& results) {
-  Report report{.title =
-                    "shadow-size: shadow maps, time and error against their size (figure 4.5)"};
-  if (results.measurements.empty()) return report;
-  report.blocks.emplace_back(
+std::vector<Block> report(const Results& results) {
+  std::vector<Block> blocks;
+  blocks.emplace_back(
       "Time of ShadowMaps and ShadowedLighting together in ms, and the distance of the picture "
       "from "
       "a traced one with the same hard shadows of the sun; all surfaces are plain. Over all "
       "cameras. "
       "A map of cascades is one of four.");
   const std::vector<std::string> sizes = mapSizes(results), scenes = results.parts(2);
-  report.blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "size", sizes, kMethods,
-                                     [&](const std::string& size, const std::string& method) {
-                                       return spreadText(results.times({method, size}));
-                                     }));
-  report.blocks.emplace_back(tableOf("Of it ShadowMaps alone", "size", sizes, kMethods,
-                                     [&](const std::string& size, const std::string& method) {
-                                       return spreadText(
-                                           results.samples({method, size}, "maps_ms"));
-                                     }));
+  blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "size", sizes, kMethods,
+                              [&](const std::string& size, const std::string& method) {
+                                return spreadText(results.times({method, size}));
+                              }));
+  blocks.emplace_back(tableOf("Of it ShadowMaps alone", "size", sizes, kMethods,
+                              [&](const std::string& size, const std::string& method) {
+                                return spreadText(results.samples({method, size}, "maps_ms"));
+                              }));
   for (const std::string& scene : scenes)
-    report.blocks.emplace_back(
-        tableOf("FLIP, " + scene + ": median (worst camera)", "size", sizes, kMethods,
-                [&](const std::string& size, const std::string& method) {
-                  return flipText(results.samples({method, size, scene}, "flip"));
-                }));
-  report.blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (quartiles)", "size", sizes,
-                                     kMethods,
-                                     [&](const std::string& size, const std::string& method) {
-                                       return spreadText(results.samples({method, size}, "psnr"));
-                                     }));
-  report.blocks.emplace_back(plotOf(results, "Time against size, all scenes", "ms", false));
-  report.blocks.emplace_back(plotOf(results, "Error against size, all scenes", "FLIP", true));
-  return report;
+    blocks.emplace_back(tableOf("FLIP, " + scene + ": median (worst camera)", "size", sizes,
+                                kMethods, [&](const std::string& size, const std::string& method) {
+                                  return flipText(results.samples({method, size, scene}, "flip"));
+                                }));
+  blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (quartiles)", "size", sizes, kMethods,
+                              [&](const std::string& size, const std::string& method) {
+                                return spreadText(results.samples({method, size}, "psnr"));
+                              }));
+  blocks.emplace_back(plotOf(results, "Time against size, all scenes", "ms", false));
+  blocks.emplace_back(plotOf(results, "Error against size, all scenes", "FLIP", true));
+  return blocks;
 }
 
 }  // namespace
 
 Suite shadowSizeSuite() {
   return {.name = "shadow-size",
-          .summary = "shadow maps: time and error against their size (figure 4.5)",
+          .title = "shadow maps, time and error against their size (figure 4.5)",
           .scenes = {{.name = "nightcity",
                       .path = "builtin:nightcity",
                       .elevationDegrees = 8,
@@ -165,7 +151,7 @@ Suite shadowSizeSuite() {
                      {.name = "institute",
                       .path = "redeclipse_institute/institute.obj",
                       .outside = true}},
-          .full = {.sizes = {{640, 360}}, .cameras = 20, .rounds = 2},
+          .full = {.sizes = {{480, 270}}, .cameras = 20, .rounds = 1},
           .quick = {.sizes = {{320, 180}}, .cameras = 2, .rounds = 1},
           .plain = true,
           .measure = measure,

@@ -21,7 +21,6 @@ const std::string kPlainPicture = "no effects", kEffects = "AO and depth of fiel
 // Names of the two kinds of measurement: {"split", size, geometry, row, scene} and {"frame", size,
 // effects, technique, scene}.
 const std::string kSplit = "split", kFrame = "frame";
-using Name = std::vector<std::string>;
 
 void addSraa(Chain& chain, const std::string& geometry) {
   chain.rows.push_back({"GeometrySamples", {"geometry=" + geometry}});
@@ -60,24 +59,20 @@ Image aliasedPixels(const Image& truth, const Image& none) {
   return mask;
 }
 
-// The techniques of a scene without effects, drawn once more for their pictures.
-Status measureErrors(Run& run, uvec2 size, const std::vector<std::size_t>& variants,
-                     const std::vector<Name>& names, std::size_t sixteen) {
-  Image fine;
-  LUCERNA_TRY_VOID(run.stage.draw(sixteen, &fine));
-  const Image truth = rgb(resizedSrgb(std::move(fine), size));
-  Image mask;
-  for (std::size_t i = 0; i < variants.size(); ++i) {
-    if (names[i][0] != kFrame || names[i][2] != kPlainPicture) continue;
-    Image picture;
-    LUCERNA_TRY_VOID(run.stage.draw(variants[i], &picture));
-    const Image test = rgb(resizedSrgb(std::move(picture), size));
-    if (names[i][3] == kNone) mask = aliasedPixels(truth, test);
-    Measurement& m = run.results.at(names[i]);
-    m.count("flip", flipLdr(truth, test).mean);
-    m.count("edge_psnr", pixelMetrics(truth, test, &mask).psnr);
-  }
-  return {};
+// What stays the same for all techniques at a camera.
+struct Truth {
+  Image picture;  // of sixteen samples a pixel
+  Image aliased;  // which pixels need anti-aliasing
+};
+
+// kNone is seen first.
+void see(Run& run, Truth& truth, const Name& name, Image picture) {
+  if (name[0] != kFrame || name[2] != kPlainPicture) return;
+  const Image test = rgb(resizedSrgb(std::move(picture), run.extent.sizes.front()));
+  if (name[3] == kNone) truth.aliased = aliasedPixels(truth.picture, test);
+  Measurement& m = run.results.at(name);
+  m.count("flip", flipLdr(truth.picture, test).mean);
+  m.count("edge_psnr", pixelMetrics(truth.picture, test, &truth.aliased).psnr);
 }
 
 void take(Run& run, const Name& name, const Sample& sample) {
@@ -94,39 +89,38 @@ void take(Run& run, const Name& name, const Sample& sample) {
 }
 
 // The first size is that of whole frames and pictures, the last that of the split.
-Status measure(Run& run) {
+Status addVariants(Run& run) {
   const uvec2 size = run.extent.sizes.front(), large = run.extent.sizes.back();
   const float sight = run.sight();
-  std::vector<std::size_t> variants;
-  std::vector<Name> names;
-  const auto add = [&](const Variant& variant, Name name) -> Status {
-    LUCERNA_TRY(number, run.stage.add(variant));
-    variants.push_back(number);
-    names.push_back(std::move(name));
-    return {};
-  };
   for (const std::string& geometry : {kDepth, kNormals})
     LUCERNA_TRY_VOID(
-        add({.chain = chainOf(geometry == kDepth ? kSraaDepth : kSraa, kPlainPicture, sight),
-             .size = large,
-             .profiled = true},
-            {kSplit, sizeName(large), geometry, run.scene}));
+        run.add({kSplit, sizeName(large), geometry, run.scene},
+                {.chain = chainOf(geometry == kDepth ? kSraaDepth : kSraa, kPlainPicture, sight),
+                 .size = large,
+                 .profiled = true}));
   for (const std::string& effects : {kPlainPicture, kEffects})
     for (const std::string& technique : kTechniques)
-      LUCERNA_TRY_VOID(add({.chain = chainOf(technique, effects, sight),
-                            .size = technique == kSupersampling ? 2u * size : size},
-                           {kFrame, sizeName(size), effects, technique, run.scene}));
-  LUCERNA_TRY(sixteen,
-              run.stage.add({.chain = chainOf(kNone, kPlainPicture, sight), .size = 4u * size}));
-  for (const SeededCamera& camera : run.cameras) {
-    run.stage.look(camera.pose);
-    LUCERNA_TRY_VOID(measureErrors(run, size, variants, names, sixteen));
-    run.advance(0.5 / static_cast<double>(run.cameras.size()));  // the errors
-    LUCERNA_TRY_VOID(run.takeTurns(
-        variants, run.extent.rounds, 0.5 / static_cast<double>(run.cameras.size()),
-        [&](std::size_t variant, const Sample& sample) { take(run, names[variant], sample); }));
-  }
+      LUCERNA_TRY_VOID(run.add({kFrame, sizeName(size), effects, technique, run.scene},
+                               {.chain = chainOf(technique, effects, sight),
+                                .size = technique == kSupersampling ? 2u * size : size}));
   return {};
+}
+
+Status measure(Run& run) {
+  LUCERNA_TRY_VOID(addVariants(run));
+  const uvec2 size = run.extent.sizes.front();
+  LUCERNA_TRY(sixteen, run.stage.add({.chain = chainOf(kNone, kPlainPicture, run.sight()),
+                                      .size = 4u * size}));
+  Truth truth;
+  return run.takeTurnsEverywhere(
+      {.prepare = [&]() -> Status {
+         Image fine;
+         LUCERNA_TRY_VOID(run.stage.draw(sixteen, &fine));
+         truth.picture = rgb(resizedSrgb(std::move(fine), size));
+         return {};
+       },
+       .take = [&](const Name& name, const Sample& sample) { take(run, name, sample); },
+       .see = [&](const Name& name, const Image& picture) { see(run, truth, name, picture); }});
 }
 
 Table splitTable(const Results& results, const std::string& size) {
@@ -185,37 +179,37 @@ BarPlot splitPlot(const Results& results, const std::string& size) {
   return plot;
 }
 
-Report report(const Results& results) {
-  Report report{.title = "sraa: SRAA split, and against supersampling (tables 4.7 and 4.8)"};
-  report.blocks.emplace_back(
+std::vector<Block> report(const Results& results) {
+  std::vector<Block> blocks;
+  blocks.emplace_back(
       "Supersampling draws twice the width and height; that its picture is made smaller after that "
       "is not in its time. Effects: ScreenSpaceAo and DepthOfField.");
   for (const std::string& size : results.parts(1, {kSplit})) {
-    report.blocks.emplace_back(splitTable(results, size));
-    report.blocks.emplace_back(splitPlot(results, size));
+    blocks.emplace_back(splitTable(results, size));
+    blocks.emplace_back(splitPlot(results, size));
   }
   for (const std::string& size : results.parts(1, {kFrame})) {
     for (const std::string& effects : {kPlainPicture, kEffects})
-      report.blocks.emplace_back(framesTable(results, size, effects));
-    report.blocks.emplace_back(errorTable(
+      blocks.emplace_back(framesTable(results, size, effects));
+    blocks.emplace_back(errorTable(
         results, size, "FLIP from 16x supersampling, " + size + ": median (quartiles)", "flip"));
-    report.blocks.emplace_back(
+    blocks.emplace_back(
         errorTable(results, size,
                    fmt::format("PSNR in dB of the pixels that differ by more than {} without "
                                "anti-aliasing, {}: median (quartiles)",
                                kAliased, size),
                    "edge_psnr"));
   }
-  return report;
+  return blocks;
 }
 
 }  // namespace
 
 Suite sraaSuite() {
   return {.name = "sraa",
-          .summary = "SRAA split, and supersampling against it (tables 4.7, 4.8)",
+          .title = "SRAA split, and against supersampling (tables 4.7 and 4.8)",
           .scenes = thesisScenes(),
-          .full = {.sizes = {{800, 600}, {1600, 1200}}, .cameras = 5, .rounds = 3},
+          .full = {.sizes = {{800, 600}, {1600, 1200}}, .cameras = 20, .rounds = 1},
           .quick = {.sizes = {{320, 240}, {640, 480}}, .cameras = 1, .rounds = 1},
           .measure = measure,
           .report = report};

@@ -21,36 +21,21 @@ const std::vector<std::string> kSamples{"4", "8", "16", "25", "36", "64"};
 const std::vector<std::string> kBlurs{"bilateral", "box", "none"};
 const std::string kSuffice = "25";  // samples, as the thesis says; at which blurs are compared
 
-using Name = std::vector<std::string>;  // label, samples, scene
-
-struct Settings {
-  Name name;
-  Chain chain;
-};
-
-Settings settingsOf(const Method& method, const std::string& blur, const std::string& samples,
-                    const Run& run) {
-  return {{method.label(blur), samples, run.scene},
-          {{{"Cull"},
-            {"GBuffer"},
-            {"ScreenSpaceAo",
-             {"method=" + method.name, "blur=" + blur, "samples=" + samples,
-              fmt::format("radius={}", kRadius * run.sight())}}},
-           "ScreenSpaceAo.ambientVisibility"}};
+// Measurements are named by label, samples and scene.
+Status add(Run& run, const Method& method, const std::string& blur, const std::string& samples) {
+  return run.add({method.label(blur), samples, run.scene},
+                 {.chain = {{{"Cull"},
+                             {"GBuffer"},
+                             {"ScreenSpaceAo",
+                              {"method=" + method.name, "blur=" + blur, "samples=" + samples,
+                               fmt::format("radius={}", kRadius * run.sight())}}},
+                            "ScreenSpaceAo.ambientVisibility"},
+                  .size = run.extent.sizes.front(),
+                  .profiled = true});
 }
 
-std::vector<Settings> allSettings(const Run& run) {
-  std::vector<Settings> all;
-  for (const Method& method : kMethods) {
-    for (const std::string& samples : kSamples)
-      all.push_back(settingsOf(method, method.blur, samples, run));
-    for (const std::string& blur : kBlurs)
-      if (blur != method.blur) all.push_back(settingsOf(method, blur, kSuffice, run));
-  }
-  return all;
-}
-
-Result<Image> traced(const Run& run, uvec2 size) {
+Result<Image> traced(const Run& run) {
+  const uvec2 size = run.extent.sizes.front();
   const trace::ReferencePicture picture =
       trace::renderReference(run.stage.scene(), {.size = size,
                                                  .view = run.stage.view(size),
@@ -75,30 +60,28 @@ double meanSquaredError(const Image& truth, const Image& picture) {
 }
 
 Status measure(Run& run) {
-  const uvec2 size = run.extent.sizes.front();
-  const std::vector<Settings> all = allSettings(run);
-  std::vector<std::size_t> variants;
-  for (const Settings& settings : all) {
-    LUCERNA_TRY(variant, run.stage.add({.chain = settings.chain, .size = size, .profiled = true}));
-    variants.push_back(variant);
+  for (const Method& method : kMethods) {
+    for (const std::string& samples : kSamples)
+      LUCERNA_TRY_VOID(add(run, method, method.blur, samples));
+    for (const std::string& blur : kBlurs)
+      if (blur != method.blur) LUCERNA_TRY_VOID(add(run, method, blur, kSuffice));
   }
-  for (const SeededCamera& camera : run.cameras) {
-    run.stage.look(camera.pose);
-    LUCERNA_TRY(truth, traced(run, size));
-    for (const std::size_t variant : variants) {
-      Image picture;
-      LUCERNA_TRY_VOID(run.stage.draw(variant, &picture));
-      run.results.at(all[variant].name).count("mse", meanSquaredError(truth, picture));
-    }
-    run.advance(0.5 / static_cast<double>(run.cameras.size()));  // the errors
-    LUCERNA_TRY_VOID(run.takeTurns(variants, run.extent.rounds,
-                                   0.5 / static_cast<double>(run.cameras.size()),
-                                   [&](std::size_t variant, const Sample& sample) {
-                                     const graph::StepProfile& step = sample.profile.steps.back();
-                                     run.results.at(all[variant].name).add(step.gpuMs, step.cpuMs);
-                                   }));
-  }
-  return {};
+  Image truth;
+  return run.takeTurnsEverywhere(
+      {.prepare = [&]() -> Status {
+         LUCERNA_TRY(ao, traced(run));
+         truth = std::move(ao);
+         return {};
+       },
+       .take =
+           [&](const Name& name, const Sample& sample) {
+             const graph::StepProfile& step = sample.profile.steps.back();
+             run.results.at(name).add(step.gpuMs, step.cpuMs);
+           },
+       .see =
+           [&](const Name& name, const Image& picture) {
+             run.results.at(name).count("mse", meanSquaredError(truth, picture));
+           }});
 }
 
 std::string errorText(const Results& results, const Name& name) {
@@ -171,11 +154,9 @@ LinePlot errorOverTimePlot(const Results& results) {
   return plot;
 }
 
-Report report(const Results& results) {
-  Report report{.title =
-                    "ssao-samples: ambient occlusion, time and error against samples (figure 4.4)"};
-  if (results.measurements.empty()) return report;
-  report.blocks.emplace_back(
+std::vector<Block> report(const Results& results) {
+  std::vector<Block> blocks;
+  blocks.emplace_back(
       fmt::format("Time of ScreenSpaceAo in ms, and the mean squared difference of its visibility "
                   "from one that "
                   "is traced with {} directions a pixel from the same surfaces, all of them plain. "
@@ -189,32 +170,30 @@ Report report(const Results& results) {
     names.push_back(method.name);
   }
   const std::vector<std::string> scenes = results.parts(2);
-  report.blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "samples", kSamples,
-                                     labels,
-                                     [&](const std::string& samples, const std::string& label) {
-                                       return spreadText(results.times({label, samples}));
-                                     }));
-  report.blocks.emplace_back(tableOf("MSE, all scenes: median (worst camera)", "samples", kSamples,
-                                     labels,
-                                     [&](const std::string& samples, const std::string& label) {
-                                       return errorText(results, {label, samples});
-                                     }));
-  report.blocks.emplace_back(tableOf("MSE with " + kSuffice + " samples: median (worst camera)",
-                                     "method", labels, scenes,
-                                     [&](const std::string& label, const std::string& scene) {
-                                       return errorText(results, {label, kSuffice, scene});
-                                     }));
-  report.blocks.emplace_back(
-      tableOf("Blurs, " + kSuffice + " samples, all scenes: MSE", "method", names, kBlurs,
-              [&](const std::string& name, const std::string& blur) {
-                const auto method = std::ranges::find(kMethods, name, &Method::name);
-                return errorText(results, {method->label(blur), kSuffice});
-              }));
-  report.blocks.emplace_back(errorsAtTheSameTime(results));
-  report.blocks.emplace_back(plotOf(results, "Time against samples", "ms", false));
-  report.blocks.emplace_back(plotOf(results, "Error against samples", "MSE", true));
-  report.blocks.emplace_back(errorOverTimePlot(results));
-  return report;
+  blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "samples", kSamples, labels,
+                              [&](const std::string& samples, const std::string& label) {
+                                return spreadText(results.times({label, samples}));
+                              }));
+  blocks.emplace_back(tableOf("MSE, all scenes: median (worst camera)", "samples", kSamples, labels,
+                              [&](const std::string& samples, const std::string& label) {
+                                return errorText(results, {label, samples});
+                              }));
+  blocks.emplace_back(tableOf("MSE with " + kSuffice + " samples: median (worst camera)", "method",
+                              labels, scenes,
+                              [&](const std::string& label, const std::string& scene) {
+                                return errorText(results, {label, kSuffice, scene});
+                              }));
+  blocks.emplace_back(tableOf("Blurs, " + kSuffice + " samples, all scenes: MSE", "method", names,
+                              kBlurs, [&](const std::string& name, const std::string& blur) {
+                                const auto method =
+                                    std::ranges::find(kMethods, name, &Method::name);
+                                return errorText(results, {method->label(blur), kSuffice});
+                              }));
+  blocks.emplace_back(errorsAtTheSameTime(results));
+  blocks.emplace_back(plotOf(results, "Time against samples", "ms", false));
+  blocks.emplace_back(plotOf(results, "Error against samples", "MSE", true));
+  blocks.emplace_back(errorOverTimePlot(results));
+  return blocks;
 }
 
 }  // namespace
@@ -222,7 +201,7 @@ Report report(const Results& results) {
 Suite ssaoSamplesSuite() {
   return {
       .name = "ssao-samples",
-      .summary = "ambient occlusion: time and error against samples (figure 4.4)",
+      .title = "ambient occlusion, time and error against samples (figure 4.4)",
       .scenes =
           {{.name = "atrium", .path = "builtin:atrium"},
            {.name = "nightcity", .path = "builtin:nightcity"},
@@ -230,7 +209,7 @@ Suite ssaoSamplesSuite() {
            {.name = "sponza", .path = "crytek_sponza/gltf/sponza.gltf", .outside = true},
            {.name = "institute", .path = "redeclipse_institute/institute.obj", .outside = true},
            {.name = "living_room", .path = "godot_living_room/living_room.glb", .outside = true}},
-      .full = {.sizes = {{640, 360}}, .cameras = 20, .rounds = 3},
+      .full = {.sizes = {{480, 270}}, .cameras = 20, .rounds = 1},
       .quick = {.sizes = {{320, 180}}, .cameras = 2, .rounds = 1},
       .plain = true,
       .measure = measure,

@@ -52,7 +52,6 @@ class Stage {
   // Makes it ready to be drawn; returns its number. Errors (ErrorKind::Pipeline) are all faults.
   Result<std::size_t> add(const Variant& variant);
   const Variant& variant(std::size_t number) const { return lanes_[number].variant; }
-  void clear() { lanes_.clear(); }  // frees all of them
 
   // From where the next frames are seen.
   void look(const CameraPose& pose);

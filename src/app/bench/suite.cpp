@@ -73,20 +73,37 @@ float Run::sight() const {
   return static_cast<float>(spreadOf(sights).median);
 }
 
-Status Run::takeTurns(std::span<const std::size_t> variants, int rounds, double share,
-                      const Take& take) {
-  double pixels = 0;
-  const auto pixelsOf = [&](std::size_t v) {
-    const uvec2 size = stage.variant(v).size;
+Status Run::add(Name name, const Variant& variant) {
+  LUCERNA_TRY(number, stage.add(variant));
+  lanes_.push_back({std::move(name), number});
+  return {};
+}
+
+Status Run::takeTurns(const Turns& turns, double share) {
+  const auto pixelsOf = [&](const Lane& lane) {
+    const uvec2 size = stage.variant(lane.variant).size;
     return static_cast<double>(size.x) * static_cast<double>(size.y);
   };
-  for (const std::size_t v : variants) pixels += pixelsOf(v) * (rounds + 1);
-  for (int round = 0; round <= rounds; ++round)
-    for (const std::size_t v : variants) {
-      LUCERNA_TRY(sample, stage.draw(v));
-      if (round > 0) take(v, sample);
-      advance(share * pixelsOf(v) / pixels);
+  double pixels = 0;
+  for (const Lane& lane : lanes_) pixels += pixelsOf(lane) * (extent.rounds + 1);
+  if (turns.prepare) LUCERNA_TRY_VOID(turns.prepare());
+  for (int round = 0; round <= extent.rounds; ++round)
+    for (const Lane& lane : lanes_) {
+      const bool warmUp = round == 0;
+      Image picture;
+      LUCERNA_TRY(sample, stage.draw(lane.variant, warmUp && turns.see ? &picture : nullptr));
+      if (!warmUp) turns.take(lane.name, sample);
+      if (!picture.empty()) turns.see(lane.name, picture);
+      advance(share * pixelsOf(lane) / pixels);
     }
+  return {};
+}
+
+Status Run::takeTurnsEverywhere(const Turns& turns) {
+  for (const SeededCamera& camera : cameras) {
+    stage.look(camera.pose);
+    LUCERNA_TRY_VOID(takeTurns(turns, 1.0 / static_cast<double>(cameras.size())));
+  }
   return {};
 }
 
@@ -146,7 +163,8 @@ Result<std::vector<std::string>> writeResults(const std::string& folder, const s
   std::vector<Report> reports;
   for (const Results& r : results) {
     const auto suite = std::ranges::find(suites(), r.suite, &Suite::name);
-    reports.push_back(suite->report(r));
+    reports.push_back({.title = fmt::format("{}: {}", suite->name, suite->title)});
+    if (!r.measurements.empty()) reports.back().blocks = suite->report(r);
   }
   const std::vector<std::pair<std::string, std::string>> texts{
       {".json", googleBenchmarkJson(results)},

@@ -59,26 +59,41 @@ class Run {
   // follow from it.
   float sight() const;
 
-  // Draws each of the variants once to warm up, then `rounds` times in turn. Errors: those of
-  // drawing; ErrorKind::Cancelled.
-  // share: of the scene's work that this is.
-  using Take = std::function<void(std::size_t variant, const Sample& sample)>;
-  Status takeTurns(std::span<const std::size_t> variants, int rounds, double share,
-                   const Take& take);
-  void advance(double share);  // of the scene's work, that was done otherwise
+  // A variant that takes turns with the others. Errors: Stage::add().
+  Status add(Name name, const Variant& variant);
+
+  struct Turns {
+    std::function<Status()> prepare = nullptr;                         // once, before the warm-up
+    std::function<void(const Name& name, const Sample& sample)> take;  // what a frame took
+    std::function<void(const Name& name, const Image& picture)> see = nullptr;  // of the warm-up
+  };
+  // From where the camera stands: draws each variant once to warm up, in the order in which they
+  // were added, then in as many rounds as extent has. share: of the scene's work that this is.
+  // Errors: those of prepare() and of drawing; ErrorKind::Cancelled.
+  Status takeTurns(const Turns& turns, double share);
+  // That at each of the cameras.
+  Status takeTurnsEverywhere(const Turns& turns);
 
  private:
+  void advance(double share);
+
   Progress& progress_;
   double done_ = 0;  // of the scene's work
+  struct Lane {
+    Name name;
+    std::size_t variant;
+  };
+  std::vector<Lane> lanes_;
 };
 
 struct Suite {
-  std::string_view name, summary;
+  std::string_view name, title;
   std::vector<SceneChoice> scenes;
   Extent full, quick;
   bool plain = false;  // StageSettings::plain
   Status (*measure)(Run& run) = nullptr;
-  Report (*report)(const Results& results) = nullptr;
+  // Of results with at least one measurement.
+  std::vector<Block> (*report)(const Results& results) = nullptr;
 };
 
 // In the order in which "all" runs them.

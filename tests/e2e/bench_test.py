@@ -1,0 +1,139 @@
+#!/usr/bin/env python3
+"""lucerna bench from outside: what its files hold, what it leaves out, and how it fails.
+
+Usage: bench_test.py PROGRAM [unittest arguments]
+"""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+from pages_test import Page
+
+PROGRAM = ""
+SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size"]
+
+
+def small(scene="cornell", cameras=1, rounds=1):
+    return ["--quick", "--scene", f"builtin:{scene}", "--size", "48x36", "--cameras", str(cameras), "--rounds", str(rounds)]
+
+
+class BenchTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="lucerna-bench-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.environment = {k: v for k, v in os.environ.items() if k != "LUCERNA_SCENE_FOLDER"}
+
+    def bench(self, *arguments):
+        return subprocess.run([PROGRAM, "bench", *map(str, arguments)], capture_output=True, text=True, timeout=240,
+                              cwd=self.folder, env=self.environment, check=False)
+
+    def measured(self, suite, *arguments):
+        """The benchmarks by their names and the text of the Markdown file, once the page has been looked over."""
+        run = self.bench(suite, *arguments, "-o", "results", "--json")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        files = json.loads(run.stdout)["files"]
+        self.assertEqual(files, [f"results/{suite}{end}" for end in (".json", ".md", ".html")])
+        document, text, page = ((self.folder / file).read_text() for file in files)
+        self.assertEqual(Page(page).faults, [])
+        self.assertNotIn("<script", page)
+        self.assertIn("<svg", page)
+        self.assertIsNone(re.search(r"\b(nan|inf)\b", page.replace("inf</td>", "")))
+        document = json.loads(document)
+        for run in document["benchmarks"]:
+            self.assertLessEqual({"name", "run_type", "iterations", "real_time", "cpu_time", "time_unit"}, set(run))
+        self.assertLessEqual({"date", "num_cpus", "driver", "library_build_type"}, set(document["context"]))
+        return {run["name"]: run for run in document["benchmarks"]}, text
+
+    def test_suites_are_listed(self):
+        run = self.bench()
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertEqual([line.split()[0] for line in run.stdout.splitlines()], [*SUITES, "all"])
+        self.assertEqual([s["suite"] for s in json.loads(self.bench("--json").stdout)], SUITES)
+
+    def test_bad_words_are_answered(self):
+        for code, words, arguments in (
+                (2, ("'sra'", "did you mean 'sraa'"), ["sra", "-o", "r"]),
+                (2, ("--output is required",), ["sraa"]),
+                (2, ("'file'", "folder"), ["sraa", "-o", "file"]),
+                (2, ("--size", "1280x720"), ["sraa", "-o", "r", "--size", "big"]),
+                (2, ("--cameras", "1 to 1000"), ["sraa", "-o", "r", "--cameras", "0"]),
+                (2, ("called 'cornell'",), ["sraa", "-o", "r", "--scene", "builtin:cornell", "--scene", "builtin:cornell"]),
+                (3, ("missing.glb", "no such file"), ["sraa", "-o", "r", "--scene", "missing.glb"]),
+                (3, ("'cornel'", "did you mean 'cornell'"), ["sraa", "-o", "r", "--scene", "builtin:cornel"])):
+            with self.subTest(arguments):
+                (self.folder / "file").write_text("")
+                run = self.bench(*arguments)
+                self.assertEqual(run.returncode, code, run.stderr)
+                for word in words:
+                    self.assertIn(word, run.stderr)
+                self.assertEqual(run.stdout, "")
+
+    def test_passes_have_times_and_counts_at_both_sizes(self):
+        runs, text = self.measured("passes", *small(cameras=2, rounds=3), "--size", "96x72")
+        for size in ("48x36", "96x72"):
+            for row in ("Cull", "GBuffer", "ShadowMaps", "Sraa", "Lighting", "whole frame"):
+                name = f"passes/{size}/{row}/cornell"
+                median = runs[name + "_median"]
+                self.assertEqual(median["iterations"], 6)
+                self.assertGreater(median["real_time"], 0)
+                self.assertLessEqual(runs[name + "_min"]["real_time"], median["real_time"])
+                self.assertLessEqual(median["real_time"], runs[name + "_max"]["real_time"])
+        self.assertGreater(runs["passes/48x36/GBuffer/cornell_median"]["primitives"], 1)
+        self.assertIn("**96x72 against 48x36, ratio of medians**", text)
+
+    def test_forward_and_deferred_draw_the_same_primitives(self):
+        runs, text = self.measured("forward", *small(cameras=2))
+        forward, deferred = (runs[f"forward/48x36/{chain}/cornell_median"] for chain in ("forward", "deferred"))
+        self.assertEqual(forward["iterations"], 5)  # four frames from one camera to the next
+        self.assertEqual(forward["primitives"] + 1, deferred["primitives"])  # Lighting's triangle
+        self.assertIn("| forward / deferred |", text)
+
+    def test_sraa_is_nearer_to_the_truth_than_nothing(self):
+        runs, text = self.measured("sraa", *small(cameras=2))
+        begin = "sraa/frame/48x36/no effects/"
+        flip = {t: runs[f"{begin}{t}/cornell_median"]["flip"] for t in ("none", "SRAA, depth+normal", "4x supersampling")}
+        self.assertLess(flip["SRAA, depth+normal"], flip["none"])
+        self.assertLess(flip["4x supersampling"], flip["none"])
+        self.assertIn("4x supersampling / SRAA", text)
+
+    def test_ambient_occlusion_has_its_error(self):
+        runs, text = self.measured("ssao-samples", *small())
+        few, many = (runs[f"ssao-samples/horizon, bilateral/{n}/cornell_median"]["mse"] for n in ("4", "64"))
+        self.assertLess(many, few)
+        self.assertIn("MSE in the time of the hemisphere's 25 samples", text)
+
+    def test_shadow_maps_have_their_error(self):
+        runs, _ = self.measured("shadow-size", *small("atrium"))
+        coarse, fine = (runs[f"shadow-size/uniform/{n}/atrium_median"] for n in ("512", "2048"))
+        self.assertLessEqual(fine["flip"], coarse["flip"])
+        self.assertGreater(fine["psnr"], 20)
+
+    def test_what_does_not_come_with_lucerna_is_skipped_with_a_word(self):
+        arguments = ["forward", "--quick", "--size", "16x12", "--cameras", 1, "--rounds", 1]
+        for more, reason in (([], "no --scene-folder"), (["--scene-folder", "nowhere"], "is not there")):
+            runs, text = self.measured(*arguments, *more)
+            self.assertIn("Skipped: sponza, as", text)
+            self.assertIn(reason, text)
+            self.assertIn("forward/16x12/forward/atrium_median", runs)
+
+    def test_after_ctrl_c_the_tables_say_so(self):
+        process = subprocess.Popen([PROGRAM, "bench", "forward", *small(cameras=50, rounds=1000), "-o", "results"],
+                                   cwd=self.folder, env=self.environment, stderr=subprocess.PIPE, text=True)
+        time.sleep(3)
+        process.send_signal(signal.SIGINT)
+        _, talk = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, talk)
+        self.assertIn("Cancelled: scenes are missing.", (self.folder / "results" / "forward.md").read_text())
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
+    unittest.main()
