@@ -12,11 +12,6 @@ namespace {
 // forgives it.
 constexpr float kNearShare = 1e-4f;
 
-// What is nearer than this part of the farthest distance does not count for the paper's warp. A
-// near plane is chosen so that nothing is cut off, and the sharpness would all go to the air behind
-// it.
-constexpr float kNearestShare = 0.005f;
-
 struct Range {
   float low = std::numeric_limits<float>::infinity(),
         high = -std::numeric_limits<float>::infinity();
@@ -46,18 +41,6 @@ vec3 acrossLight(vec3 toLightW, const Viewer& viewer) {
   const auto across = [&](vec3 v) { return v - glm::dot(v, toLightW) * toLightW; };
   const vec3 up = glm::dot(viewer.forwardW, toLightW) < 0.f ? viewer.upW : -viewer.upW;
   return normalizedOr(across(viewer.forwardW), normalizedOr(across(up), anyAcross(toLightW)));
-}
-
-// The part of a ray that lies inside the box, from 0 on; low > high if none does.
-Range insideOf(const Aabb& box, vec3 from, vec3 direction) {
-  Range range{0.f, std::numeric_limits<float>::infinity()};
-  for (int axis = 0; axis < 3; ++axis) {
-    float a = (box.min[axis] - from[axis]) / direction[axis];
-    float b = (box.max[axis] - from[axis]) / direction[axis];
-    if (a > b) std::swap(a, b);
-    range.low = std::max(range.low, a), range.high = std::min(range.high, b);
-  }
-  return range;
 }
 
 // Rows: unit axes of the space.
@@ -96,8 +79,8 @@ std::vector<vec3> visibleBody(std::span<const scene::View> views, const Aabb& bo
   return body;
 }
 
-std::vector<vec3> visibleSamples(std::span<const scene::View> views, const Aabb& boxW) {
-  constexpr int kSide = 5, kDepths = 8;
+std::vector<vec3> visibleSamples(std::span<const scene::View> views, const scene::Bvh& bvh) {
+  constexpr int kSide = 9;
   std::vector<vec3> samples;
   for (const scene::View& view : views) {
     const mat4 worldFromClip = glm::inverse(view.clipFromWorld());
@@ -107,12 +90,8 @@ std::vector<vec3> visibleSamples(std::span<const scene::View> views, const Aabb&
       const vec4 beyond = worldFromClip * vec4(ndc, 0.5f, 1.f);
       const vec3 from = vec3(onNear) / onNear.w;
       const vec3 direction = glm::normalize(vec3(beyond) / beyond.w - from);
-      const Range inside = insideOf(boxW, from, direction);
-      for (int i = 0; i < kDepths && inside.high > inside.low; ++i) {
-        const float share = (static_cast<float>(i) + 0.5f) / kDepths;
-        const float distance = glm::mix(inside.low, inside.high, share * share);
-        samples.push_back(from + distance * direction);
-      }
+      const float distance = bvh.firstEntered(from, direction);
+      if (std::isfinite(distance)) samples.push_back(from + distance * direction);
     }
   }
   return samples;
@@ -121,10 +100,17 @@ std::vector<vec3> visibleSamples(std::span<const scene::View> views, const Aabb&
 namespace {
 
 // EGSR 2004, section 4.2: n = (z_n + sqrt(z_n z_f)) / sin(gamma), z_f = z_n + d sin(gamma).
-float warpOfThePaper(float depth, float sine, Range distances) {
-  const float zn = std::max(distances.low, kNearestShare * distances.high);
+float warpOfThePaper(float depth, float sine, float zn) {
   const float zf = zn + depth * sine;
   return zn > 0.f ? depth * sine / (zn + std::sqrt(zn * zf)) : 0.f;
+}
+
+// What nearly all of the points lie behind.
+float nearestOf(std::vector<float> distances) {
+  if (distances.empty()) return 0.f;
+  const auto tenth = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 10);
+  std::ranges::nth_element(distances, tenth);
+  return *tenth;
 }
 
 // The warp from 0 to `most` for which a texel's area has the least geometric mean over the samples.
@@ -158,19 +144,20 @@ float warpOfSmallestTexels(float most, std::span<const vec2> body, std::span<con
 float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, std::span<const vec3> samplesW,
                     const Viewer& viewer) {
   const vec3 up = acrossLight(-directionW, viewer), right = glm::cross(up, -directionW);
-  const Range length = along(up, bodyW), view = along(viewer.forwardW, bodyW);
+  const Range length = along(up, bodyW);
   const auto shareOf = [&](vec3 point) {
     return (glm::dot(up, point) - length.low) / std::max(length.length(), 1e-20f);
   };
   std::vector<vec2> body;
-  std::vector<float> samples;
   for (const vec3& point : bodyW)
     body.emplace_back(glm::dot(right, point - viewer.positionW), shareOf(point));
-  for (const vec3& point : samplesW) samples.push_back(std::max(shareOf(point), 0.f));
-
+  std::vector<float> samples, distances;
+  for (const vec3& point : samplesW) {
+    samples.push_back(std::max(shareOf(point), 0.f));
+    distances.push_back(glm::dot(viewer.forwardW, point - viewer.positionW));
+  }
   const float sine = glm::length(glm::cross(directionW, viewer.forwardW));
-  const float eye = glm::dot(viewer.forwardW, viewer.positionW);
-  const float most = warpOfThePaper(length.length(), sine, {view.low - eye, view.high - eye});
+  const float most = warpOfThePaper(length.length(), sine, nearestOf(std::move(distances)));
   return warpOfSmallestTexels(most, body, samples);
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "scene/bvh.hpp"
 #include "scene/view.hpp"
 
 namespace lucerna::render {
@@ -39,15 +40,16 @@ Viewer viewerOf(std::span<const scene::View> views);
 std::vector<vec3> visibleBody(std::span<const scene::View> views, const Aabb& boxW,
                               std::span<const vec4> furtherPlanes = {});
 
-// Points all over the views, more of them near: at distances as the squares of even steps.
-std::vector<vec3> visibleSamples(std::span<const scene::View> views, const Aabb& boxW);
+// Points that the views probably show: where rays all over them enter the first box of an object.
+std::vector<vec3> visibleSamples(std::span<const scene::View> views, const scene::Bvh& bvh);
 
 // The strength of a warp, d / n in the terms of light-space perspective shadow maps: d the body's
 // depth along the view in light space, n the distance of the warp's centre before it. 0: none, a
-// uniform map. At most what the paper finds for a view across the light, which falls to 0 as they
-// become parallel; less where the geometric mean of the areas that texels cover at the samples is
-// then smaller. (Where light and view are nearly in line the view spreads to all sides: the
-// paper's warp would favour one of them.)
+// uniform map, also without samples. At most what the paper finds for a view across the light whose
+// nearest point is that of the samples; it falls to 0 as light and view become parallel. Less where
+// the geometric mean of the areas that texels cover at the samples is then smaller. (Where light
+// and view are nearly in line the view spreads to all sides: the paper's warp would favour one of
+// them.)
 float automaticWarp(vec3 directionW, std::span<const vec3> bodyW, std::span<const vec3> samplesW,
                     const Viewer& viewer);
 

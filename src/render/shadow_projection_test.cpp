@@ -54,8 +54,21 @@ vec3 ndcOf(const ShadowProjection& projection, vec3 pointW) {
   return vec3(clip) / clip.w;
 }
 
+// The ground and two rows of houses.
+scene::Bvh street() {
+  std::vector<Aabb> boxes{{vec3(-100, 0, -400), vec3(100, 0, 20)}};
+  for (int i = 0; i < 8; ++i)
+    for (const float x : {-30.f, 15.f}) {
+      const vec3 corner(x, 0.f, -50.f * static_cast<float>(i) - 20.f);
+      boxes.push_back({corner, corner + vec3(15, 25, 40)});
+    }
+  scene::Bvh bvh;
+  bvh.build(boxes);
+  return bvh;
+}
+
 float warpOf(vec3 directionW, const std::vector<scene::View>& views) {
-  return automaticWarp(directionW, visibleBody(views, kBoxW), visibleSamples(views, kBoxW),
+  return automaticWarp(directionW, visibleBody(views, kBoxW), visibleSamples(views, street()),
                        viewerOf(views));
 }
 

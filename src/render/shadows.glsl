@@ -1,5 +1,5 @@
 // What shadow maps (render/shadow_maps.hpp) say of a point: how much of a light reaches it.
-#include "render/blocks.glsl"
+#include "render/view.glsl"
 
 layout(std430) readonly buffer ShadowMapBlock { ShadowMapValues shadowMaps[]; };
 layout(std430) readonly buffer ShadowLightBlock { uvec4 lightShadows[]; };  // first map, count
@@ -14,6 +14,9 @@ uniform int shadowFilterRadius = 0;
 // factor on what movedForShadow() finds necessary.
 uniform float shadowBias = 0.0;
 uniform float shadowNormalBias = 0.0;
+
+// Of a position that was found by its depth, as a share of its distance from the eye.
+const float kPositionRounding = 2e-5;
 
 float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
   vec4 at = vec4(uvDepth.xy, float(map.place.x), uvDepth.z);
@@ -38,7 +41,8 @@ vec3 movedForShadow(ShadowMapValues map, float w, vec3 positionW, vec3 normalW, 
   float reach = (float(shadowFilterRadius) + 1.0) * corner;
   float cosine = dot(normalW, map.axisW.xyz);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-  return positionW + normalW * (shadowNormalBias * reach * sine) + toLightW * shadowBias;
+  float off = shadowNormalBias * (reach * sine + kPositionRounding * distance(positionW, view.eyeW.xyz));
+  return positionW + normalW * off + toLightW * shadowBias;
 }
 
 float depthInMap(ShadowMapValues map, vec4 clip, vec3 positionW) {

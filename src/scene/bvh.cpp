@@ -319,4 +319,28 @@ void Bvh::query(const Frustum& frustum, std::vector<std::uint32_t>& items) const
   }
 }
 
+float Bvh::firstEntered(vec3 origin, vec3 direction) const {
+  float nearest = std::numeric_limits<float>::infinity();
+  if (nodes_.empty()) return nearest;
+  std::array<std::uint32_t, kMaxDepth + 1> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    const RaySpan span = spanInside(node.box, origin, direction);
+    if (span.first > span.last || span.first >= nearest) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const RaySpan inside = spanInside(boxes_[i], origin, direction);
+      if (inside.first > 0.f && inside.first <= inside.last)
+        nearest = std::min(nearest, inside.first);
+    }
+  }
+  return nearest;
+}
+
 }  // namespace lucerna::scene

@@ -49,6 +49,31 @@ std::vector<std::uint32_t> sortedQuery(const Bvh& bvh, const Frustum& frustum) {
   return items;
 }
 
+TEST(Bvh, FindsTheFirstBoxThatARayEnters) {
+  const auto boxes = randomBoxes(500, 11, 50.f, 8.f);
+  Bvh bvh;
+  bvh.build(boxes);
+  Random random(5);
+  int found = 0, around = 0;
+  for (int i = 0; i < 300; ++i) {
+    // Every third from inside a box.
+    const vec3 origin =
+        i % 3 == 0 ? boxes[static_cast<std::size_t>(i)].center() : randomPoint(random, 50.f);
+    const vec3 direction = randomPoint(random, 1.f);
+    float expected = std::numeric_limits<float>::infinity();
+    for (const Aabb& box : boxes) {
+      const RaySpan span = spanInside(box, origin, direction);
+      around += span.first == 0.f && span.last >= 0.f;
+      if (span.first > 0.f && span.first <= span.last) expected = std::min(expected, span.first);
+    }
+    found += std::isfinite(expected);
+    EXPECT_EQ(bvh.firstEntered(origin, direction), expected);
+  }
+  EXPECT_GT(found, 50);
+  EXPECT_GE(around, 100);
+  EXPECT_TRUE(std::isinf(Bvh().firstEntered(vec3(0), vec3(1, 0, 0))));
+}
+
 TEST(Bvh, FindsExactlyWhatTestingEveryBoxFinds) {
   const std::vector<Aabb> boxes = randomBoxes(100'000, 1, 1000, 8);
   Bvh bvh;

@@ -54,6 +54,58 @@ class TruthTest(unittest.TestCase):
         self.assertLess(psnr, LEAST_PSNR - 10)
 
 
+    def test_hard_shadows(self):
+        """Lights of no size: what is left is the stairs of the maps' texels along the shadows' edges."""
+        scene, truth, test = (self.folder / name for name in ("hard.json", "truth.exr", "test.exr"))
+        sun = {"lightSettings": {"lamp 1": {"on": False}},
+               "lights": [{"name": "sun", "kind": "directional", "direction": [0.5, -1, -0.4], "intensity": 2}]}
+        lamp = {"lightSettings": {"lamp 1": {"radius": 0}}}
+        cases = [("builtin:cornell", {"lightSettings": {"lamp": {"radius": 0}}}, ["lispsm"])]
+        for case in ("half-plane", "pole", "fence"):
+            cases.append((f"builtin:penumbra?case={case}", lamp, ["lispsm"]))
+            cases.append((f"builtin:penumbra?case={case}", sun, ["lispsm", "uniform", "cascades"]))
+        for builtin, lights, methods in cases:
+            scene.write_text(json.dumps({"lucerna": "scene/1", "include": [{"file": builtin}]} | lights))
+            self.run_command("reference", scene, "--size", "320x180", "--spp", 1, "--primary", "centre", "-o", truth)
+
+            def psnr(*sets):
+                arguments = [word for value in sets for word in ("--set", value)]
+                self.run_command("render", scene, "--size", "320x180", "--pipeline", "shadows", *arguments, "-o", test)
+                return self.compare(truth, test)["psnr"]
+
+            without = psnr("ShadowMaps.enabled=false")
+            for method in methods:
+                shadowed = psnr(f"ShadowMaps.method={method}", "ShadowMaps.localSize=2048")
+                light = next(iter(lights.get("lights", [{"name": "its lamp"}])))["name"]
+                print(f"{builtin}, {light}, {method}: {shadowed:.1f} dB, without shadows {without:.1f}", flush=True)
+                with self.subTest(scene=builtin, light=light, method=method):
+                    self.assertGreater(shadowed, 40)
+                    self.assertGreater(shadowed, without + 10)
+
+    def test_mirrors(self):
+        # Pictures without detail: the reference reads textures in their finest level.
+        scene = self.folder / "mirrors.json"
+        plain = {"albedoTexture": {"scale": [0, 0]}}
+        scene.write_text(json.dumps({
+            "lucerna": "scene/1", "include": [{"file": "builtin:mirrors"}],
+            "materials": {"wallpaper": plain, "parquet": plain,
+                          "clock": plain | {"emissiveTexture": {"scale": [0, 0]}}}}))
+        truth, test = self.folder / "truth.exr", self.folder / "test.exr"
+        for camera in ("main", "between"):
+            self.run_command("reference", scene, "--size", "320x180", "--camera", camera, "--spp", 1, "--primary",
+                             "centre", "--shading", "point", "--shadows", "off", "--mirrors", 4, "-o", truth)
+            for arguments, reflects in ((("forward",), True), (("deferred",), True),
+                                        (("forward", "--set", "Mirrors.depth=1"), False),
+                                        (("forward", "--set", "Mirrors.enabled=false"), False)):
+                with self.subTest(camera=camera, arguments=arguments):
+                    self.run_command("render", scene, "--size", "320x180", "--camera", camera, "--pipeline",
+                                     *arguments, "-o", test)
+                    psnr = self.compare(truth, test)["psnr"]
+                    print(f"builtin:mirrors without pictures, {camera}, {' '.join(arguments)}: {psnr:.1f} dB",
+                          flush=True)
+                    # As above, and more edges: those of each reflection.
+                    (self.assertGreater if reflects else self.assertLess)(psnr, LEAST_PSNR - 5)
+
     def test_ambient_occlusion(self):
         for scene, radius in (("builtin:cornell?ambient=1", 0.3), ("builtin:atrium", 1)):
             truth = self.folder / "ao.exr"

@@ -1,6 +1,7 @@
 // Axis-aligned boxes.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 
 #include "core/math/math.hpp"
@@ -36,6 +37,23 @@ inline Aabb transformed(const mat4& m, const Aabb& box) {
     result.max += glm::max(a, b);
   }
   return result;
+}
+
+// The part of a ray that lies inside the box, as distances from 0 on in lengths of `direction`
+// (Kay and Kajiya, SIGGRAPH 1986). Empty if first > last.
+struct RaySpan {
+  float first = 0.f, last = std::numeric_limits<float>::infinity();
+};
+inline RaySpan spanInside(const Aabb& box, vec3 origin, vec3 direction) {
+  RaySpan span;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float a = (box.min[axis] - origin[axis]) / direction[axis];
+    const float b = (box.max[axis] - origin[axis]) / direction[axis];
+    // In this order a NaN, of a ray inside a side's plane, changes nothing.
+    span.first = std::max(span.first, std::min(a, b));
+    span.last = std::min(span.last, std::max(a, b));
+  }
+  return span;
 }
 
 }  // namespace lucerna

@@ -138,11 +138,11 @@ void ShadowMaps::planDirectional(const Params& params, const Ports& ports, const
     const float sine = glm::length(glm::cross(directionW, viewer.forwardW));
     float warp = 0.f;
     if (params.method == Method::Lispsm)
-      warp =
-          params.warp == Warp::Set
-              ? params.warpStrength * sine
-              : render::automaticWarp(directionW, body,
-                                      render::visibleSamples(ports.views->views, castersW), viewer);
+      warp = params.warp == Warp::Set
+                 ? params.warpStrength * sine
+                 : render::automaticWarp(
+                       directionW, body,
+                       render::visibleSamples(ports.views->views, ports.scene->bvh), viewer);
     addMap(ports, light,
            render::directionalProjection(directionW, body, castersW, viewer, warp, margin), false);
     return;
