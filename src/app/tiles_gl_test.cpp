@@ -235,6 +235,7 @@ TEST_F(TilesTest, SceneryJoinsButForRounding) {
   for (const auto& [scene, pipeline, tile] : {Case{"builtin:atrium?glass=1", "deferred", 64},
                                               {"builtin:atrium?glass=1", "forward", 112},
                                               {"builtin:atrium", "bvh", 112},
+                                              {"builtin:atrium", "shadows", 112},
                                               {"builtin:materials", "deferred", 64},
                                               {"builtin:materials", "forward", 112}}) {
     SCOPED_TRACE(fmt::format("{}, {}", scene, pipeline));
@@ -276,8 +277,12 @@ class StereoTest : public ViewsTest {
 };
 
 TEST_F(StereoTest, WithoutSeparationEachHalfIsTheMonoPicture) {
-  for (const char* pipeline : {"deferred", "forward"}) {
-    SCOPED_TRACE(pipeline);
+  for (const auto& [scene, pipeline] : {std::pair{"builtin:atrium?lights=2", "deferred"},
+                                        {"builtin:atrium?lights=2", "forward"},
+                                        {"builtin:atrium?lights=2", "shadows"},
+                                        {"builtin:mirrors", "deferred"}}) {
+    SCOPED_TRACE(fmt::format("{}, {}", scene, pipeline));
+    settings_.scene = scene;
     settings_.pipeline = pipeline;
     settings_.stereo = {};
     const Image mono = pictureOf();
