@@ -8,5 +8,6 @@ pass("ScreenSpaceAo");
 pass("Lighting");
 pass("CustomShaders");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("ToneMap");

@@ -1,4 +1,4 @@
-// Deferred shading: one G-buffer, lit in full-screen passes; custom shaders and glass are drawn forward.
+// Deferred shading: one G-buffer, lit in full-screen passes; custom shaders, mirrors and glass are drawn forward.
 // The default of `lucerna render`.
 pipeline({name: "deferred", output: "ToneMap.color"});
 
@@ -7,5 +7,6 @@ pass("GBuffer");
 pass("Lighting");
 pass("CustomShaders");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("ToneMap");

@@ -5,5 +5,6 @@ pipeline({name: "forward", output: "ToneMap.color"});
 pass("Cull");
 pass("Forward");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("ToneMap");

@@ -91,7 +91,7 @@ struct Material {
                                 // which is 1 - roughness
   float shininess = 32.f;       // Phong's exponent h, 0 to 255 in the G-buffer
 
-  // Share of a flat mirror's colour that is the reflected picture, 0 to 1; see isMirror().
+  // Share of a mirror's colour that is the reflected picture, 0 to 1; see isMirror().
   float reflectivity = 0.f;
 
   CustomShader shader;
@@ -106,7 +106,7 @@ inline bool usesTextureEnvironment(const Material& material) {
          generated(material.albedoTexture) || generated(material.emissiveTexture);
 }
 
-// A planar mirror: its object's mesh is flat. Translucent surfaces are none.
+// A planar mirror: the faces of its object's mesh are flat. Translucent surfaces are none.
 inline bool isMirror(const Material& material) {
   return material.reflectivity > 0.f && material.alphaMode != AlphaMode::Blend;
 }

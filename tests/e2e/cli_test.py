@@ -254,7 +254,7 @@ class CliTest(unittest.TestCase):
 
     def test_warnings_of_the_pipeline_are_in_the_document(self):
         run = self.lucerna("render", ATRIUM, *SMALL, "--set", "Background.enabled=false",
-                           "--set", "Transparency.reads.color=CustomShaders.color", "-o", "a.png", "--json")
+                           "--set", "Mirrors.reads.color=CustomShaders.color", "-o", "a.png", "--json")
         self.assert_ok(run)
         self.assertEqual(json.loads(run.stdout)["warnings"], [])
         (self.folder / "idle.json").write_text(json.dumps({"lucerna": "pipeline/1", "passes": [

@@ -15,7 +15,7 @@ namespace lucerna::passes {
 class Mirrors {
  public:
   struct Params {
-    int depth = 2;
+    int depth = 4;
     float ambient = 1.f, background = 1.f;
     bool backFaces = false;
   };
