@@ -193,35 +193,5 @@ TEST_P(Shadows, PixelsOfCustomShadersDarkenByTheDiffuseShare) {
   }
 }
 
-// Only what lies between the lights and what is seen is drawn.
-TEST(ShadowMapsCost, CastersAreCulledFromTheLight) {
-  scene::Scene scene = testing::emptyScene();
-  testing::addWall(scene, kWall);
-  for (int i = 0; i < 40; ++i) addCube(scene, {20.f + static_cast<float>(i), 0, -4}, 0.5f);
-  addCube(scene, {0, 0, -4}, 0.5f);
-  addLamp(scene, scene::LightKind::Directional, {0, 3, 0}, {0, 0, -4});
-  updateTransforms(scene);
-  testing::SceneRenderer renderer(scene);
-  renderer.profiling = true;
-  const auto output = renderer.render(shadowRows(), kSize);
-  ASSERT_TRUE(output) << output.error().message;
-  const auto step =
-      std::ranges::find(output->profile.steps, "ShadowMaps", &graph::StepProfile::row);
-  ASSERT_NE(step, output->profile.steps.end());
-  EXPECT_EQ(step->counters.primitives, 2u * 12u) << "the wall and one cube";
-}
-
-TEST(ShadowMapsCost, LampsBeyondTheBudgetLightWithoutShadows) {
-  scene::Scene scene = testing::emptyScene();
-  testing::addWall(scene, kWall);
-  addCube(scene, {0, 0, 2}, 0.5f);
-  addLamp(scene, scene::LightKind::Point, {0, 0, 4}, {0, 0, -1});
-  updateTransforms(scene);
-  graph::Pipeline pipeline = shadowRows();
-  EXPECT_EQ(testing::centerOf(shadowed(scene, pipeline)), vec3(0.f));
-  pipeline.passes[3].params["localLights"] = std::int64_t{0};
-  EXPECT_GT(testing::centerOf(shadowed(scene, pipeline)).y, 0.01f);
-}
-
 }  // namespace
 }  // namespace lucerna

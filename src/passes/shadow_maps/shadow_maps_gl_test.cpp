@@ -1,0 +1,95 @@
+// What ShadowMaps draws, and for whom.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/testing.hpp"
+
+namespace lucerna {
+namespace {
+
+constexpr uvec2 kSize{65, 65};  // odd: the middle pixel looks along the axis
+const std::vector<std::string> kRows{"Cull", "GBuffer", "ShadowMaps", "ShadowedLighting"};
+
+// A wall before the camera of emptyScene(), 6 m away.
+scene::Scene wallScene() {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, 6.f);
+  return scene;
+}
+
+void addCube(scene::Scene& scene, vec3 center) {
+  scene.meshes.push_back(testing::cubeMesh());
+  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
+                     glm::scale(glm::translate(mat4(1.f), center), vec3(0.5f)));
+}
+
+void addLamp(scene::Scene& scene, scene::LightKind kind, vec3 eye, vec3 target) {
+  scene::Light light;
+  light.kind = kind;
+  light.intensity = 100.f;
+  testing::addLight(scene, light, eye, target);
+  updateTransforms(scene);
+}
+
+graph::StepProfile profileOf(const scene::Scene& scene, const graph::Pipeline& pipeline) {
+  testing::SceneRenderer renderer(scene);
+  renderer.profiling = true;
+  const auto output = renderer.render(pipeline, kSize);
+  EXPECT_TRUE(output) << output.error().message;
+  for (const graph::StepProfile& step : output->profile.steps)
+    if (step.row == "ShadowMaps") return step;
+  ADD_FAILURE() << "ShadowMaps did not run";
+  return {};
+}
+
+// Only what lies between the lights and what is seen is drawn.
+TEST(ShadowMaps, CastersAreCulledFromTheLight) {
+  scene::Scene scene = wallScene();
+  for (int i = 0; i < 40; ++i) addCube(scene, {20.f + static_cast<float>(i), 0, -4});
+  addCube(scene, {0, 0, -4});
+  addLamp(scene, scene::LightKind::Directional, {0, 3, 0}, {0, 0, -4});
+  EXPECT_EQ(profileOf(scene, testing::rows(kRows)).counters.primitives, 2u * 12u)
+      << "the wall and one cube";
+}
+
+TEST(ShadowMaps, FacesOfALampThatNobodySeesAreNotDrawn) {
+  scene::Scene scene = wallScene();
+  addLamp(scene, scene::LightKind::Point, {0, 0, -3}, {0, 0, -4});
+  const std::uint64_t before = profileOf(scene, testing::rows(kRows)).counters.targetSwitches;
+  EXPECT_LT(before, 6u) << "the wall is seen by one face, and its ends by a few more";
+  addLamp(scene, scene::LightKind::Spot, {0, 0, 5}, {0, 0, 9});
+  EXPECT_EQ(profileOf(scene, testing::rows(kRows)).counters.targetSwitches, before)
+      << "a lamp that shines away";
+}
+
+TEST(ShadowMaps, LampsBeyondTheBudgetLightWithoutShadows) {
+  scene::Scene scene = wallScene();
+  addCube(scene, {0, 0, 2});
+  addLamp(scene, scene::LightKind::Point, {0, 0, 4}, {0, 0, -1});
+  graph::Pipeline pipeline = testing::rows(kRows);
+  const auto center = [&] {
+    return testing::centerOf(testing::valueOf(scene, pipeline, kSize, "ShadowedLighting.color"));
+  };
+  EXPECT_EQ(center(), vec3(0.f));
+  pipeline.passes[2].params["localLights"] = std::int64_t{0};
+  EXPECT_GT(center().y, 0.01f);
+}
+
+TEST(ShadowMaps, SizesAreThoseAskedFor) {
+  scene::Scene scene = wallScene();
+  addLamp(scene, scene::LightKind::Directional, {0, 3, 0}, {0, 0, -4});
+  graph::Pipeline pipeline = testing::rows(kRows);
+  for (const std::int64_t size : {64, 1000, 8192}) {
+    pipeline.passes[2].params["size"] = size;
+    const std::uint64_t before = testing::device().objectCounts().textureBytes;
+    testing::SceneRenderer renderer(scene);
+    ASSERT_TRUE(renderer.render(pipeline, kSize));
+    const std::uint64_t bytes = testing::device().objectCounts().textureBytes - before;
+    EXPECT_GE(bytes, static_cast<std::uint64_t>(size * size * 4));
+    EXPECT_LT(bytes, static_cast<std::uint64_t>(size * size * 4) + 1'000'000);
+  }
+}
+
+}  // namespace
+}  // namespace lucerna
