@@ -171,7 +171,7 @@ BarPlot splitPlot(const Results& results, const std::string& size) {
   BarPlot plot{.title = "SRAA split, " + size, .unit = "ms", .parts = {"GeometrySamples", "Sraa"}};
   for (const std::string& scene : results.parts(4, {kSplit, size}))
     for (const std::string& geometry : {kDepth, kNormals}) {
-      plot.rows.push_back(scene + ", " + geometry);
+      plot.rows.push_back(fmt::format("{}, {}", scene, geometry));
       std::vector<double>& values = plot.values.emplace_back();
       for (const std::string& row : plot.parts)
         values.push_back(spreadOf(results.times({kSplit, size, geometry, row, scene})).median);
