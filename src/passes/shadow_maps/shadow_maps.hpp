@@ -46,14 +46,7 @@ class ShadowMaps {
     render::DrawList list;
   };
 
-  void plan(const Params& params, const Ports& ports);
-  void planDirectional(const Params& params, const Ports& ports, const Aabb& castersW,
-                       std::uint32_t light);
-  // Whether the light reaches what the views see.
-  bool planLocal(const Params& params, const Ports& ports, const Aabb& castersW,
-                 std::uint32_t light, bool mayHaveMaps);
-  void addMap(const Ports& ports, std::uint32_t light, const render::ShadowProjection& projection,
-              bool local);
+  void warnOfLamps(int leftOut, int inSight, int allowed);
   void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
             Drawing& drawing);
 
@@ -63,8 +56,7 @@ class ShadowMaps {
   render::ObjectPrograms programs_, warpedPrograms_;
   std::vector<Drawing> drawings_;       // kept for their buffers
   std::vector<std::uint32_t> visible_;  // kept for its memory
-  int directionalLayers_ = 0, localLayers_ = 0;
-  int leftOut_ = 0;  // most lamps in sight that the budget left without a map
+  int mostLeftOut_ = 0;                 // lamps without a map, so far
 };
 
 }  // namespace lucerna::passes

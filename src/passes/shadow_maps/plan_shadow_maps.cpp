@@ -1,0 +1,171 @@
+#include "passes/shadow_maps/plan_shadow_maps.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+namespace lucerna::passes {
+namespace {
+
+// A spot light that opens wider than this on each side gets the six faces of a point light: one
+// picture would have few texels in its middle.
+constexpr float kWidestSpot = 1.2f;       // rad
+constexpr float kFaceCorner = 0.955317f;  // rad, between a face's axis and its corners
+
+// How much of the way from equal to proportional cascades: Zhang, Sun, Xu and Lun,
+// "Parallel-Split Shadow Maps for Large-scale Virtual Environments", VRCIA 2006, section 3.1.
+constexpr float kSplitShare = 0.85f;
+
+float marginOf(int size) {
+  return std::min(static_cast<float>(render::kShadowMargin) / static_cast<float>(size), 0.1f);
+}
+
+// What a lamp gives to the eye's surroundings: those that give most have shadows.
+float importanceOf(const scene::PlacedLight& light, vec3 eyeW) {
+  const float strength = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+  return strength * scene::attenuationAt(light, 0.5f * glm::distance(light.positionW, eyeW));
+}
+
+// The lamps that may have maps, most important first.
+std::vector<std::uint32_t> lampsOf(std::span<const scene::PlacedLight> lights,
+                                   const render::Viewer& viewer) {
+  std::vector<std::tuple<float, std::uint32_t>> keyed;
+  for (std::uint32_t i = 0; i < lights.size(); ++i)
+    if (const scene::PlacedLight& light = lights[i]; light.kind != scene::LightKind::Directional)
+      keyed.emplace_back(-importanceOf(light, viewer.positionW), i);
+  std::ranges::sort(keyed);
+  std::vector<std::uint32_t> lamps;
+  for (const auto& [key, index] : keyed) lamps.push_back(index);
+  return lamps;
+}
+
+std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
+  const float angle = std::acos(std::clamp(light.cosOuter, -1.f, 1.f));
+  if (light.kind == scene::LightKind::Spot && angle <= kWidestSpot)
+    return {{.positionW = light.positionW,
+             .axisW = light.directionW,
+             .tangent = std::tan(std::max(angle, 1e-3f)),
+             .reach = light.reach}};
+  // A face that the cone does not reach by its corner is dark.
+  const float darkFrom = light.kind == scene::LightKind::Spot ? angle + kFaceCorner : kPi;
+  std::vector<render::LightPyramid> faces;
+  for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
+                          vec3(0, 0, 1), vec3(0, 0, -1)})
+    if (std::acos(std::clamp(glm::dot(axis, light.directionW), -1.f, 1.f)) <= darkFrom)
+      faces.push_back({.positionW = light.positionW, .axisW = axis, .reach = light.reach});
+  return faces;
+}
+
+// Half-spaces between two distances before the viewer.
+std::array<vec4, 2> sliceOf(const render::Viewer& viewer, float from, float to) {
+  const float eye = glm::dot(viewer.forwardW, viewer.positionW);
+  return {vec4(viewer.forwardW, -(eye + from)), vec4(-viewer.forwardW, eye + to)};
+}
+
+// Distances at which `count` cascades of the body begin and end.
+std::vector<float> splitsOf(const render::Viewer& viewer, const std::vector<vec3>& body,
+                            int count) {
+  float near = std::numeric_limits<float>::infinity(), far = 0.f;
+  for (const vec3& point : body) {
+    const float distance = glm::dot(viewer.forwardW, point - viewer.positionW);
+    near = std::min(near, distance), far = std::max(far, distance);
+  }
+  const float first = std::max(near, 0.005f * far);  // of the proportional ones
+  std::vector<float> splits{near};
+  for (int i = 1; i < count; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(count);
+    const float equal = glm::mix(first, far, share);
+    const float proportional = first * std::pow(far / first, share);
+    splits.push_back(glm::mix(equal, proportional, kSplitShare));
+  }
+  splits.push_back(far);
+  return splits;
+}
+
+class Planner {
+ public:
+  Planner(const ShadowMaps::Params& params, std::span<const scene::PlacedLight> lights,
+          std::span<const scene::View> views, const scene::Bvh& bvh)
+      : params_(params), lights_(lights), views_(views), bvh_(bvh), boxW_(bvh.nodes()[0].box) {
+    plan_.ofLight.resize(lights.size());
+  }
+
+  void directional(std::uint32_t light) {
+    const std::vector<vec3> body = render::visibleBody(views_, boxW_);
+    if (body.empty()) return;
+    if (params_.method != ShadowMaps::Method::Cascades) {
+      addDirectional(light, body, warpOf(lights_[light].directionW, body));
+      return;
+    }
+    const std::vector<float> splits = splitsOf(viewer_, body, params_.cascades);
+    for (std::size_t i = 0; i + 1 < splits.size(); ++i) {
+      const auto slice = sliceOf(viewer_, splits[i], splits[i + 1]);
+      const std::vector<vec3> part = render::visibleBody(views_, boxW_, slice);
+      if (!part.empty()) addDirectional(light, part, 0.f);
+    }
+  }
+
+  void lamp(std::uint32_t light) {
+    const bool mayHaveMaps = plan_.lampsWithMaps < params_.localLights;
+    bool inSight = false;
+    for (const render::LightPyramid& pyramid : pyramidsOf(lights_[light])) {
+      const auto projection =
+          render::localProjection(pyramid, views_, boxW_, marginOf(params_.localSize));
+      inSight = inSight || projection;
+      if (projection && mayHaveMaps)
+        add(light, {.projection = *projection, .local = true, .layer = localLayers_++});
+    }
+    plan_.lampsInSight += inSight;
+    plan_.lampsWithMaps += inSight && mayHaveMaps;
+  }
+
+  const render::Viewer& viewer() const { return viewer_; }
+  ShadowMapPlan take() { return std::move(plan_); }
+
+ private:
+  float warpOf(vec3 directionW, const std::vector<vec3>& body) const {
+    if (params_.method == ShadowMaps::Method::Uniform) return 0.f;
+    if (params_.warp == ShadowMaps::Warp::Automatic)
+      return render::automaticWarp(directionW, body, render::visibleSamples(views_, bvh_), viewer_);
+    return params_.warpStrength * glm::length(glm::cross(directionW, viewer_.forwardW));
+  }
+
+  void addDirectional(std::uint32_t light, const std::vector<vec3>& body, float warp) {
+    add(light, {.projection = render::directionalProjection(lights_[light].directionW, body, boxW_,
+                                                            viewer_, warp, marginOf(params_.size)),
+                .layer = directionalLayers_++});
+  }
+
+  void add(std::uint32_t light, const render::ShadowMaps::Map& map) {
+    render::ShadowMaps::Range& range = plan_.ofLight[light];
+    if (range.count == 0) range.first = static_cast<std::uint32_t>(plan_.maps.size());
+    ++range.count;
+    plan_.maps.push_back(map);
+  }
+
+  const ShadowMaps::Params& params_;
+  std::span<const scene::PlacedLight> lights_;
+  std::span<const scene::View> views_;
+  const scene::Bvh& bvh_;
+  const Aabb boxW_;
+  const render::Viewer viewer_ = render::viewerOf(views_);
+  int directionalLayers_ = 0, localLayers_ = 0;
+  ShadowMapPlan plan_;
+};
+
+}  // namespace
+
+ShadowMapPlan planShadowMaps(const ShadowMaps::Params& params,
+                             std::span<const scene::PlacedLight> lights,
+                             std::span<const scene::View> views, const scene::Bvh& bvh) {
+  if (bvh.nodes().empty())
+    return {.ofLight = std::vector<render::ShadowMaps::Range>(lights.size())};
+  Planner planner(params, lights, views, bvh);
+  for (std::uint32_t i = 0; i < lights.size(); ++i)
+    if (lights[i].kind == scene::LightKind::Directional) planner.directional(i);
+  for (const std::uint32_t lamp : lampsOf(lights, planner.viewer())) planner.lamp(lamp);
+  return planner.take();
+}
+
+}  // namespace lucerna::passes
