@@ -235,7 +235,7 @@ TEST_F(TilesTest, SceneryJoinsButForRounding) {
   for (const auto& [scene, pipeline, tile] : {Case{"builtin:atrium?glass=1", "deferred", 64},
                                               {"builtin:atrium?glass=1", "forward", 112},
                                               {"builtin:atrium", "bvh", 112},
-                                              {"builtin:atrium", "sraa", 64},
+                                              {"builtin:atrium?lights=2", "sraa", 64},
                                               {"builtin:atrium", "shadows", 112},
                                               {"builtin:materials", "deferred", 64},
                                               {"builtin:materials", "forward", 112},
@@ -244,7 +244,7 @@ TEST_F(TilesTest, SceneryJoinsButForRounding) {
     SCOPED_TRACE(fmt::format("{}, {}", scene, pipeline));
     settings_.scene = scene;
     // From elsewhere single pixels of splinters, seen by two mirrors, differ by 29 of 255.
-    if (settings_.scene == "builtin:mirrors") settings_.camera = "between";
+    settings_.camera = settings_.scene == "builtin:mirrors" ? "between" : "";
     settings_.pipeline = pipeline;
     settings_.tile = 0;
     const Image picture = pictureOf(), depth = layersOf({"depth"}).at("depth");
@@ -254,6 +254,26 @@ TEST_F(TilesTest, SceneryJoinsButForRounding) {
     EXPECT_LE(difference.greatest, 2);
     EXPECT_LT(difference.share, 0.005);
     EXPECT_LT(relativeDifference(layersOf({"depth"}).at("depth"), depth), 3e-5f);
+  }
+}
+
+// Each pixel gathers from circles around it, whose sizes follow from tiles of pixels around those.
+TEST_F(TilesTest, DepthOfFieldJoinsButForRounding) {
+  settings_.size = {320, 180};
+  settings_.scene = "builtin:atrium";
+  settings_.pipeline = "depth_of_field";
+  for (const char* method : {"gather", "separable"}) {
+    SCOPED_TRACE(method);
+    settings_.sets = {"DepthOfField.lensRadius=0.3", "DepthOfField.focusDistance=12",
+                      "DepthOfField.maximumRadius=10", "DepthOfField.steps=3",
+                      std::string("DepthOfField.method=") + method};
+    settings_.tile = 0;
+    const Image picture = pictureOf();
+    settings_.tile = 48;
+    const Difference difference = differenceOf(pictureOf(), picture);
+    EXPECT_GT(views_, 4u);
+    EXPECT_LE(difference.greatest, 2);
+    EXPECT_LT(difference.share, 0.01);
   }
 }
 

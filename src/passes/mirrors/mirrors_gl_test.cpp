@@ -246,9 +246,9 @@ TEST_F(Mirrors, ShowTheBackgroundOfTheirDirection) {
   scene::Texture& cube = scene_.textures.emplace_back();
   for (int face = 0; face < 6; ++face) {
     Image image(4, 4, 4, ComponentType::F32);
-    for (int i = 0; i < 16; ++i)
-      std::ranges::fill(image.as<float>().subspan(static_cast<std::size_t>(4 * i), 3),
-                        0.25f * static_cast<float>(face + 1));
+    for (int y = 0; y < 4; ++y)
+      for (int x = 0; x < 4; ++x)
+        std::fill_n(image.pixel<float>(x, y), 3, 0.25f * static_cast<float>(face + 1));
     cube.faces.push_back(std::make_shared<const Image>(std::move(image)));
   }
   cube.image = cube.faces[0];
