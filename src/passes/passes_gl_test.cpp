@@ -34,6 +34,8 @@ Stage stageOf(const std::string& type) {
             "ToneMap.color",
             {{"file", ::testing::TempDir() + "lucerna-each-pass.png"}}};
   if (type == "Fxaa") return {{"Cull", "GBuffer", "Lighting", "ToneMap", type}, "Fxaa.color"};
+  if (type == "GeometrySamples" || type == "Sraa")
+    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "GeometrySamples", "Sraa"}, "Sraa.color"};
   if (type == "ShowGBuffer")
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
   if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())

@@ -7,6 +7,7 @@
 #include "passes/fullscreen/fullscreen.hpp"
 #include "passes/fxaa/fxaa.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
+#include "passes/geometry_samples/geometry_samples.hpp"
 #include "passes/lighting/lighting.hpp"
 #include "passes/mirrors/mirrors.hpp"
 #include "passes/save_image/save_image.hpp"
@@ -15,6 +16,7 @@
 #include "passes/shadowed_lighting/shadowed_lighting.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
+#include "passes/sraa/sraa.hpp"
 #include "passes/tone_map/tone_map.hpp"
 #include "passes/transparency/transparency.hpp"
 #include "render/view_group.hpp"
@@ -52,6 +54,8 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ShowBvh>();
   registry.add<SaveImage>();
   registry.add<Fxaa>();
+  registry.add<GeometrySamples>();
+  registry.add<Sraa>();
   registry.add(fullscreenType(registry.shaders()));
 }
 

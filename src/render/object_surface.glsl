@@ -2,6 +2,8 @@
 // Surface that is shaded or stored. Goes with render/object.vert.
 //   ALPHA_TEST           discard below the material's cutoff
 //   TEXTURE_ENVIRONMENT  generated coordinates, cube maps, combines other than modulate
+//   EACH_SAMPLE          of a multisampled target: the alpha test is made at each sample, so that the holes'
+//                        edges run through pixels
 #include "render/scene.glsl"
 #include "render/surface.glsl"
 #include "render/view.glsl"
@@ -27,7 +29,12 @@ vec2 transformed(TextureUse use, vec2 uv) {
 }
 
 vec2 texCoordOf(TextureUse use) {
-  return transformed(use, use.offset.z > 0.5 ? texCoords.zw : texCoords.xy);
+#if defined(EACH_SAMPLE) && defined(ALPHA_TEST)
+  vec4 coords = interpolateAtSample(texCoords, gl_SampleID);
+#else
+  vec4 coords = texCoords;
+#endif
+  return transformed(use, use.offset.z > 0.5 ? coords.zw : coords.xy);
 }
 
 vec4 sampled(sampler2D image, TextureUse use) {
