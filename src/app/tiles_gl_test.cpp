@@ -264,12 +264,12 @@ TEST_F(TilesTest, DepthOfFieldJoinsButForRounding) {
   settings_.pipeline = "depth_of_field";
   for (const char* method : {"gather", "separable"}) {
     SCOPED_TRACE(method);
-    settings_.sets = {"DepthOfField.lensRadius=0.3", "DepthOfField.focusDistance=12",
-                      "DepthOfField.maximumRadius=10", "DepthOfField.steps=3",
+    settings_.sets = {"DepthOfField.lensRadius=1", "DepthOfField.focusDistance=12",
+                      "DepthOfField.maximumRadius=20", "DepthOfField.steps=3",
                       std::string("DepthOfField.method=") + method};
     settings_.tile = 0;
     const Image picture = pictureOf();
-    settings_.tile = 48;
+    settings_.tile = 32;
     const Difference difference = differenceOf(pictureOf(), picture);
     EXPECT_GT(views_, 4u);
     EXPECT_LE(difference.greatest, 2);

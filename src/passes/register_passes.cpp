@@ -3,6 +3,7 @@
 #include "passes/background/background.hpp"
 #include "passes/cull/cull.hpp"
 #include "passes/custom_shaders/custom_shaders.hpp"
+#include "passes/depth_of_field/depth_of_field.hpp"
 #include "passes/forward/forward.hpp"
 #include "passes/fullscreen/fullscreen.hpp"
 #include "passes/fxaa/fxaa.hpp"
@@ -49,6 +50,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<Background>();
   registry.add<Mirrors>();
   registry.add<Transparency>();
+  registry.add<DepthOfField>();
   registry.add<ToneMap>();
   registry.add<ShowGBuffer>();
   registry.add<ShowBvh>();

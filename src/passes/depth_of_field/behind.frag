@@ -1,0 +1,18 @@
+// What does not lie before the plane in focus, a quarter as large: of this, what blurred things in front hide is
+// made up.
+#include "passes/depth_of_field/circle.glsl"
+
+uniform sampler2D color;
+uniform sampler2D depth;
+
+layout(location = 0) out vec4 behind;  // rgb times a; a: its share of the pixels
+
+void main() {
+  ivec2 first = ivec2(gl_FragCoord.xy) * 4;
+  ivec2 end = min(first + 4, textureSize(depth, 0));
+  behind = vec4(0.0);
+  for (int y = first.y; y < end.y; ++y)
+    for (int x = first.x; x < end.x; ++x)
+      if (circleAt(texelFetch(depth, ivec2(x, y), 0).r) >= -kSharp)
+        behind += vec4(texelFetch(color, ivec2(x, y), 0).rgb, 1.0) / 16.0;
+}

@@ -1,0 +1,11 @@
+// The circle of confusion: the disc of the picture over which a thin lens spreads a point's light.
+
+uniform vec4 lens;  // px: factor and summand of reversed depth, the radius at infinity, the largest
+
+const float kSharp = 0.5;  // px: such a circle lies within its pixel
+
+// Its radius in px, negative before the plane in focus.
+float circleAt(float reversedDepth) {
+  float radius = reversedDepth == 0.0 ? lens.z : lens.x * reversedDepth + lens.y;
+  return clamp(radius, -lens.w, lens.w);
+}

@@ -1,0 +1,134 @@
+// The picture through a thin lens: each pixel gathers from the circles that reach it. First its own surface and
+// what is seen past that, then what lies in front and is blurred over it.
+#include "passes/depth_of_field/grid.glsl"
+
+uniform sampler2D color;
+uniform sampler2D depth;
+uniform sampler2D farLayer;   // smoothed for strides of more than a pixel: rgb; a: radius of its circle, px
+uniform sampler2D farCover;   // share of the pixel whose light it is
+uniform sampler2D nearLayer;  // the same of what is before the plane in focus
+uniform sampler2D nearCover;
+uniform sampler2D behind;  // rgb times a: what is not before it
+uniform vec2 uvOfPixel;    // in `behind`
+
+layout(location = 0) out vec4 blurred;
+
+ivec2 pixel, last;
+
+struct Light {
+  vec3 color;
+  float radius;  // px
+  float cover;   // share of the pixel
+};
+
+Light fromPicture(ivec2 tap, float side) {
+  float radius = side * circleAt(texelFetch(depth, tap, 0).r);
+  return Light(texelFetch(color, tap, 0).rgb, radius, radius > kSharp ? 1.0 : 0.0);
+}
+Light fromLayer(ivec2 tap, sampler2D layer, sampler2D cover) {
+  vec4 found = texelFetch(layer, tap, 0);
+  return Light(found.rgb, found.a, texelFetch(cover, tap, 0).r);
+}
+Light farLight(vec2 offset, float stride) {
+  ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
+  return stride == 1.0 ? fromPicture(tap, 1.0) : fromLayer(tap, farLayer, farCover);
+}
+Light nearLight(vec2 offset, float stride) {
+  ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
+  return stride == 1.0 ? fromPicture(tap, -1.0) : fromLayer(tap, nearLayer, nearCover);
+}
+float ownRadius(float radius, float stride) {
+  return stride == 1.0 ? radius : unsmoothed(radius, widestStride(pixel));
+}
+
+// The taps of a circle: rows to both sides of its middle, and taps to both sides in each.
+int rowsOf(float radius, float stride) { return int(ceil(radius / stride - 0.5)); }
+int tapsOf(int row, int rows) { return int(sqrt(float(rows * rows + 2 * rows - row * row))); }
+
+// The share of a circle's light that falls on a tap `away` from its middle, which stands for stride^2 pixels. The
+// circle gets a rim of a stride, which makes it larger; that is taken off. On the grid its area is right to 5 %.
+float share(float radius, float away, float stride) {
+  float squared = max(radius * radius - 0.5 * stride * stride, 0.0);
+  float reached = clamp((sqrt(squared) - away) / stride + 0.5, 0.0, 1.0);
+  return reached / max(3.14159265 / (stride * stride) * squared + 0.26, 0.5);
+}
+
+// Whether, before the plane in focus, the first circle is so much larger that its thing is another one, in front
+// of the second: 0 to 1.
+const float kSame = 1.25, kOther = 1.75;
+float inFront(float radius, float other) { return smoothstep(kSame, kOther, radius / max(other, kSharp)); }
+
+// A surface behind the plane in focus. A tap counts as far as its own circle and the pixel's reach: what is
+// farther away is covered by what is nearer, and never spreads over it.
+vec3 farColor(float radius) {
+  float stride = strideOf(radius), own = ownRadius(radius, stride);
+  int rows = rowsOf(radius, stride);
+  vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0);
+  for (int y = -rows; y <= rows; ++y) {
+    int taps = tapsOf(y, rows);
+    for (int x = -taps; x <= taps; ++x) {
+      vec2 offset = stride * vec2(x, y);
+      Light light = farLight(offset, stride);
+      sum += light.cover * share(min(light.radius, own), length(offset), stride) * vec4(light.color, 1.0);
+    }
+  }
+  return sum.rgb / sum.a;
+}
+
+// A surface before it. It leaves a share of the pixel's circle open to what is behind; the picture does not have
+// that where the surface is, but it is like what is nearest beside it.
+vec3 nearColor(float radius) {
+  float stride = strideOf(radius), own = ownRadius(radius, stride);
+  int rows = rowsOf(min(kOther * radius, largestAt(pixel).x), stride);
+  vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0), hidden = vec4(0.0);
+  float open = 0.0;
+  for (int y = -rows; y <= rows; ++y) {
+    int taps = tapsOf(y, rows);
+    for (int x = -taps; x <= taps; ++x) {
+      vec2 offset = stride * vec2(x, y);
+      Light light = nearLight(offset, stride);
+      float weight = share(own, length(offset), stride);
+      float closeness = 1.0 / (1.0 + dot(offset, offset));
+      float notInFront = 1.0 - inFront(light.radius, own), further = inFront(own, light.radius);
+      vec4 surface = light.cover * notInFront * vec4(light.color, 1.0);
+      sum += share(light.radius, length(offset), stride) * (1.0 - further) * surface;
+      open += weight * (further * surface.a + notInFront * (1.0 - light.cover));
+      hidden += closeness * closeness * further * surface;
+      if (light.cover < 1.0)
+        hidden += closeness * closeness * texture(behind, (gl_FragCoord.xy + offset) * uvOfPixel);
+    }
+  }
+  vec3 surface = sum.rgb / sum.a;
+  return hidden.a > 0.0 ? mix(surface, hidden.rgb / hidden.a, open / (open + sum.a)) : surface;
+}
+
+// The light that what lies in front throws on the pixel; a: how much of it that covers.
+vec4 front(float radius, float own) {
+  float stride = strideOf(radius);
+  int rows = rowsOf(radius, stride);
+  vec4 sum = vec4(0.0);
+  for (int y = -rows; y <= rows; ++y) {
+    int taps = tapsOf(y, rows);
+    for (int x = -taps; x <= taps; ++x) {
+      vec2 offset = stride * vec2(x, y);
+      Light light = nearLight(offset, stride);
+      float weight = light.cover * inFront(light.radius, own) * share(light.radius, length(offset), stride);
+      sum += weight * vec4(light.color, 1.0);
+    }
+  }
+  return sum;
+}
+
+void main() {
+  pixel = ivec2(gl_FragCoord.xy);
+  last = textureSize(color, 0) - 1;
+  blurred = texelFetch(color, pixel, 0);
+  float circle = circleAt(texelFetch(depth, pixel, 0).r);
+  if (circle > kSharp) blurred.rgb = farColor(circle);
+  if (circle < -kSharp) blurred.rgb = nearColor(-circle);
+
+  float own = max(-circle, kSharp), largestNear = largestAt(pixel).x;
+  if (largestNear <= kSame * own) return;
+  vec4 light = front(largestNear, own);
+  if (light.a > 0.0) blurred.rgb = mix(blurred.rgb, light.rgb / light.a, min(1.05 * light.a, 1.0));
+}
