@@ -8,5 +8,6 @@ pass("CustomShaders");
 pass("ShadowMaps");
 pass("ShadowedLighting");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("ToneMap");

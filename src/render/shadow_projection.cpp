@@ -225,7 +225,7 @@ std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
   const float farthest =
       along(pyramid.axisW, body).high - glm::dot(pyramid.axisW, pyramid.positionW);
   const float far = std::max(1.001f * farthest, 1e-6f);  // the farthest surfaces lie inside
-  const float near = kNearShare * far;
+  const float near = std::clamp(pyramid.near, kNearShare * far, 0.5f * far);
   Range width, height;
   for (const vec3& point : body) {
     const vec3 p(result.viewFromWorld * vec4(point, 1.f));

@@ -66,6 +66,7 @@ struct LightPyramid {
   vec3 axisW{0.f, 0.f, -1.f};  // unit
   float tangent = 1.f;         // of the angle between the axis and a side
   float reach = 1.f;           // m along the axis; may be infinite
+  float near = 0.f;            // m along the axis: nothing nearer is in the map
 };
 
 // Cropped to what the views see of the box inside the pyramid; none if that is nothing.

@@ -40,6 +40,7 @@ std::vector<std::uint32_t> lampsOf(std::span<const scene::PlacedLight> lights,
   return lamps;
 }
 
+// A point light is a sphere: what lies inside, its bulb for instance, throws no shadow.
 std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   const float angle = std::acos(std::clamp(light.cosOuter, -1.f, 1.f));
   if (light.kind == scene::LightKind::Spot && angle <= kWidestSpot)
@@ -53,7 +54,10 @@ std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
                           vec3(0, 0, 1), vec3(0, 0, -1)})
     if (std::acos(std::clamp(glm::dot(axis, light.directionW), -1.f, 1.f)) <= darkFrom)
-      faces.push_back({.positionW = light.positionW, .axisW = axis, .reach = light.reach});
+      faces.push_back({.positionW = light.positionW,
+                       .axisW = axis,
+                       .reach = light.reach,
+                       .near = light.kind == scene::LightKind::Point ? light.radius : 0.f});
   return faces;
 }
 

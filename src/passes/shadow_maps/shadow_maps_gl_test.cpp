@@ -76,6 +76,22 @@ TEST(ShadowMaps, LampsBeyondTheBudgetLightWithoutShadows) {
   EXPECT_GT(center().y, 0.01f);
 }
 
+TEST(ShadowMaps, WhatIsInsideALampThrowsNoShadow) {
+  scene::Scene scene = wallScene();
+  addCube(scene, {0, 0, -2});  // half a metre wide
+  addLamp(scene, scene::LightKind::Point, {0, 0, -2}, {0, 0, -3});
+  const auto center = [&] {
+    return testing::centerOf(
+        testing::valueOf(scene, testing::rows(kRows), kSize, "ShadowedLighting.color"));
+  };
+  scene.nodes[scene.objects.back().node].translation.x += 2.f;  // out of the picture's middle
+  scene.nodes[scene.lights.back().node].translation.x += 2.f;
+  updateTransforms(scene);
+  EXPECT_EQ(center(), vec3(0.f));
+  scene.lights.back().radius = 0.45f;
+  EXPECT_GT(center().y, 0.01f);
+}
+
 TEST(ShadowMaps, SizesAreThoseAskedFor) {
   scene::Scene scene = wallScene();
   addLamp(scene, scene::LightKind::Directional, {0, 3, 0}, {0, 0, -4});
