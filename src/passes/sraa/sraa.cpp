@@ -18,7 +18,7 @@ void Sraa::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("view", &Ports::view).help("The view that all was drawn from.");
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
-      .halo(3)
+      .halo(1)
       .help("Reversed depth of what was shaded.");
   d.read("normal", &Ports::normal)
       .texture(Format::Rg16Unorm)
@@ -29,6 +29,7 @@ void Sraa::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("depthSamples", &Ports::depthSamples)
       .spec(gpu::TextureKind::Multisample2D, {Format::Depth32F})
       .sameSizeAs("depth")
+      .halo(1)
       .help("Reversed depth at places within each pixel.");
   d.read("normalSamples", &Ports::normalSamples)
       .spec(gpu::TextureKind::Multisample2D, {Format::Rg16Unorm})
@@ -57,9 +58,10 @@ const gpu::Texture& Sraa::copyOf(gpu::Device& device, const gpu::Texture& color)
   return before_;
 }
 
-// The gradient g of depth over the pixel that fits the samples best, in the mean of squares, is the
-// sum of fit * (depth of the sample - depth at the centre): from d(|o . g - difference|^2) / dg = 0
-// over their offsets o, g = (sum of o o^T)^-1 (sum of o * difference).
+// The plane through depth at a pixel's centre that fits its samples best, by least squares: its
+// gradient g is the sum of fit * (depth of the sample - depth at the centre), as the derivative of
+// the sum of (g . o - difference)^2 over offsets o is 0 for g = (sum of o o^T)^-1 (sum of o *
+// difference).
 void Sraa::placeSamples(gpu::Device& device, const gpu::Texture& samples) {
   const std::vector<vec2> positions = device.samplePositions(samples);
   CHECK(positions.size() == 4, "'{}' has {} samples a pixel; Sraa reads 4", samples.label(),

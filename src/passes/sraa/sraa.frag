@@ -24,25 +24,25 @@ layout(location = 0) out vec4 smoothed;
 // A share of nothing but such weights is still a number.
 const float kLeastWeight = 1e-35;
 
-ivec2 last;
 vec4 found, pixelsPerDepth;  // of the samples: depth, and what a difference from it is in pixels there
 #ifdef NORMALS
 vec3 normals[4];             // of the samples
 #endif
 
-float depthAt(ivec2 pixel) { return texelFetch(depth, clamp(pixel, ivec2(0), last), 0).r; }
+vec4 depthsAt(ivec2 pixel) {
+  vec4 depths;
+  for (int i = 0; i < 4; ++i) depths[i] = texelFetch(depthSamples, pixel, i).r;
+  return depths;
+}
 
-// The change of depth from pixel to pixel along an axis on the surface at `pixel`, where depth is `d`: the steps
-// to both sides, each trusted as it goes on straight, and none, as they go against each other: things may be as
-// thin as a pixel. A hard choice would turn with the last bit of depth.
-float slopeOf(float d, ivec2 pixel, ivec2 axis) {
-  float ahead = depthAt(pixel + axis) - d, behind = d - depthAt(pixel - axis);
-  vec3 doubt = vec3(depthAt(pixel + 2 * axis) - d - 2.0 * ahead, d - depthAt(pixel - 2 * axis) - 2.0 * behind,
-                    length(vec2(min(abs(ahead), abs(behind)), ahead + behind)));
-  if (any(greaterThan(pixel + axis, last))) doubt.x = 1e6;
-  if (any(lessThan(pixel - axis, ivec2(0)))) doubt.y = 1e6;
-  vec3 trust = 1.0 / (doubt * doubt + 1e-30);
-  return (trust.x * ahead + trust.y * behind) / (trust.x + trust.y + trust.z);
+// What the plane through a pixel's centre and its samples, which differ from it in depth by `steps`, adds to
+// depth at (x, y) px from the centre. Flat as far as they lie in no plane: then the pixel holds an edge.
+vec4 planeOf(vec4 steps, vec4 x, vec4 y) {
+  vec2 gradient = vec2(dot(fitX, steps), dot(fitY, steps));
+  vec4 fitted = gradient.x * placesX + gradient.y * placesY, off = steps - fitted;
+  float square = dot(fitted, fitted);
+  gradient *= square / (square + 64.0 * dot(off, off) + 1e-30);
+  return gradient.x * x + gradient.y * y;
 }
 
 // dp: how far the samples are from the plane of a pixel's surface, on a scale that doubles with each step. `d`
@@ -62,12 +62,10 @@ vec4 turnsTo(ivec2 pixel) {
 #endif
 
 void readSamples(ivec2 pixel) {
-  for (int i = 0; i < 4; ++i) {
-    found[i] = texelFetch(depthSamples, pixel, i).r;
+  found = depthsAt(pixel);
 #ifdef NORMALS
-    normals[i] = decodeNormal(texelFetch(normalSamples, pixel, i).rg);
+  for (int i = 0; i < 4; ++i) normals[i] = decodeNormal(texelFetch(normalSamples, pixel, i).rg);
 #endif
-  }
   // Depth d is at distance (d p33 - p32) / (p22 - d p23) of the projection p; its derivative, divided by the
   // size of a pixel there, comes down to this.
   mat4 p = view.clipFromView;
@@ -86,7 +84,6 @@ vec4 lightAt(ivec2 pixel) {
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
-  last = textureSize(depth, 0) - 1;
   float here = texelFetch(depth, pixel, 0).r;
   readSamples(pixel);
   vec4 own = distancesTo(here, here + dot(fitX, found - here) * placesX + dot(fitY, found - here) * placesY);
@@ -103,11 +100,10 @@ void main() {
     if (!isEdge) break;
     ivec2 offset = ivec2(i % 3, i / 3) - 1;
     ivec2 there = pixel + offset;
-    if (any(lessThan(there, ivec2(0))) || any(greaterThan(there, last))) continue;
+    if (any(lessThan(there, ivec2(0))) || any(greaterThanEqual(there, textureSize(depth, 0)))) continue;
     float d = texelFetch(depth, there, 0).r;
     vec4 x = placesX - float(offset.x), y = placesY - float(offset.y);
-    vec4 apart = distancesTo(
-        d, d + slopeOf(d, there, ivec2(1, 0)) * x + slopeOf(d, there, ivec2(0, 1)) * y);
+    vec4 apart = distancesTo(d, d + planeOf(depthsAt(there) - d, x, y));
 #ifdef NORMALS
     apart = max(apart, turnsTo(there));
 #endif
