@@ -10,6 +10,9 @@ uniform sampler2DArrayShadow localShadowMaps;
 // Percentage-closer filtering (Reeves, Salesin and Cook, SIGGRAPH 1987) over (2 r + 1)^2 comparisons
 // a texel apart; each is bilinear where the sampler filters.
 uniform int shadowFilterRadius = 0;
+// How far from the point, in texels along each side, the depths lie that it is compared with: half a
+// texel for the nearest one alone, a whole one for the four of the hardware's mean, and the radius.
+uniform float shadowFilterReach = 1.0;
 // How far a point is moved before it is compared: towards the light in m, and off its surface as a
 // factor on what movedForShadow() finds necessary.
 uniform float shadowBias = 0.0;
@@ -38,7 +41,7 @@ float filteredShadow(ShadowMapValues map, vec3 uvDepth) {
 vec3 movedForShadow(ShadowMapValues map, float w, vec3 positionW, vec3 normalW, vec3 toLightW) {
   vec2 texel = map.texel.xy * (map.place.y == 0u ? vec2(w, w * w) : vec2(w));  // m
   float corner = length(vec2(texel.x + map.texel.w * texel.y, texel.y));
-  float reach = (float(shadowFilterRadius) + 1.0) * corner;
+  float reach = shadowFilterReach * corner;
   float cosine = dot(normalW, map.axisW.xyz);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
   float off = shadowNormalBias * (reach * sine + kPositionRounding * distance(positionW, view.eyeW.xyz));

@@ -76,6 +76,7 @@ void ShadowedLighting::execute(graph::PassContext& context, const Params& params
   if (ports.ambientVisibility)
     rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
 
+  const int radius = std::max(static_cast<int>(params.filter) - 1, 0);
   const auto draw = [&](const Programs& programs, gpu::Blend blend) {
     const gpu::ProgramPtr& program = ports.ambientVisibility ? programs.occluded : programs.plain;
     // At depth 0: passes where something nearer was drawn, so that empty pixels cost nothing.
@@ -84,7 +85,9 @@ void ShadowedLighting::execute(graph::PassContext& context, const Params& params
                              .blend = blend,
                              .cull = gpu::Cull::None});
     program->set("ambientScale", params.ambient);
-    program->set("shadowFilterRadius", std::max(static_cast<int>(params.filter) - 1, 0));
+    program->set("shadowFilterRadius", radius);
+    program->set("shadowFilterReach",
+                 params.filter == Filter::Nearest ? 0.5f : static_cast<float>(radius) + 1.f);
     program->set("shadowBias", params.bias);
     program->set("shadowNormalBias", params.normalBias);
     rendering.fullscreen();

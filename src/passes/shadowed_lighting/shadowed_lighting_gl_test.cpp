@@ -91,12 +91,16 @@ TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
     updateTransforms(scene);
     const Image plain = testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "Lighting"}),
                                          kSize, "Lighting.color");
-    const Image found = shadowed(scene, shadowRows(GetParam().method));
-    const Image a = testing::asFloatRgb(plain), b = testing::asFloatRgb(found);
-    float worst = 0.f;
-    for (std::size_t i = 0; i < a.as<float>().size(); ++i)
-      worst = std::max(worst, std::abs(a.as<float>()[i] - b.as<float>()[i]));
-    EXPECT_LE(worst, 1.f / 255.f) << "light at " << degrees << " degrees";
+    for (const char* filter : {"nearest", "hardware", "3x3", "9x9"}) {
+      graph::Pipeline pipeline = shadowRows(GetParam().method);
+      pipeline.passes.back().params["filter"] = filter;
+      const Image found = shadowed(scene, pipeline);
+      const Image a = testing::asFloatRgb(plain), b = testing::asFloatRgb(found);
+      float worst = 0.f;
+      for (std::size_t i = 0; i < a.as<float>().size(); ++i)
+        worst = std::max(worst, std::abs(a.as<float>()[i] - b.as<float>()[i]));
+      EXPECT_LE(worst, 1.f / 255.f) << filter << ", light at " << degrees << " degrees";
+    }
   }
 }
 
