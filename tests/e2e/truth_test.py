@@ -106,6 +106,26 @@ class TruthTest(unittest.TestCase):
                     # As above, and more edges: those of each reflection.
                     (self.assertGreater if reflects else self.assertLess)(psnr, LEAST_PSNR - 5)
 
+    def test_depth_of_field(self):
+        """Both methods against a thin lens; shadows and mirrors are left out of all pictures."""
+        for scene, focus, radius in (("builtin:penumbra", 6, 0.3), ("builtin:atrium", 12, 0.4)):
+            truth, test = self.folder / "truth.exr", self.folder / "test.exr"
+            self.run_command("reference", scene, "--size", "320x180", "--spp", 64, "--primary", "centre", "--shading",
+                             "point", "--shadows", "off", "--mirrors", 0, "--lens-radius", radius,
+                             "--focus-distance", focus, "-o", truth)
+            flip = {}
+            for method in ("enabled=false", "method=separable", "method=gather"):
+                self.run_command("render", scene, "--size", "320x180", "--pipeline", "depth_of_field",
+                                 "--set", f"DepthOfField.{method}", "--set", f"DepthOfField.lensRadius={radius}",
+                                 "--set", f"DepthOfField.focusDistance={focus}", "--set", "Mirrors.enabled=false",
+                                 "-o", test)
+                compared = self.compare(truth, test)
+                flip[method] = compared["flip"]["mean"]
+                print(f"{scene}, {method}: FLIP {flip[method]:.3f}, {compared['psnr']:.1f} dB", flush=True)
+            with self.subTest(scene):
+                self.assertLess(flip["method=gather"], 0.5 * flip["enabled=false"])
+                self.assertLess(flip["method=gather"], 0.9 * flip["method=separable"])
+
     def test_ambient_occlusion(self):
         for scene, radius in (("builtin:cornell?ambient=1", 0.3), ("builtin:atrium", 1)):
             truth = self.folder / "ao.exr"
