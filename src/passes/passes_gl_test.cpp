@@ -26,7 +26,7 @@ Stage stageOf(const std::string& type) {
   if (type == "Fullscreen")  // of any format, so nobody reads it
     return {{"Cull", "GBuffer", "Lighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
   if (type == "ScreenSpaceAo")
-    return {{"Cull", "GBuffer", type, "Lighting", "ToneMap"}, "ToneMap.color"};
+    return {{"Cull", "GBuffer", "CustomShaders", type, "Lighting", "ToneMap"}, "ToneMap.color"};
   if (type == "ShadowMaps" || type == "ShadowedLighting")
     return {{"Cull", "GBuffer", "ShadowMaps", "ShadowedLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "SaveImage")

@@ -59,6 +59,12 @@ void ScreenSpaceAo::describe(graph::PassInfo<Params, Ports>& d) {
       .range(8, 4096)
       .unit("px")
       .help("Occluders farther away on the screen do not count.");
+  d.param("apply", &Params::apply)
+      .choices({"lighting", "multiply"})
+      .rebuilds(graph::Rebuild::Ports)
+      .help(
+          "lighting: what shades later dims the ambient light by it; multiply: the row multiplies "
+          "the picture that is there, direct light and all.");
   d.read("view", &Ports::view).help("The view that depth and normals were drawn from.");
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
@@ -73,6 +79,11 @@ void ScreenSpaceAo::describe(graph::PassInfo<Params, Ports>& d) {
       .sizeOf("depth")
       .whenDisabled(vec4(1.f))
       .help("1: nothing is near. 1 where nothing was drawn.");
+  if (d.values().apply == Apply::Multiply)
+    d.update("color", &Ports::color)
+        .texture(Format::Rgba16Float, Format::Rgba8Unorm)
+        .sameSizeAs("depth")
+        .help("The finished picture, multiplied as it is stored.");
 }
 
 ScreenSpaceAo::ScreenSpaceAo(gpu::Device& device) {
@@ -84,6 +95,8 @@ ScreenSpaceAo::ScreenSpaceAo(gpu::Device& device) {
   }
   blurProgram_ = device.program(
       {.vertex = "gpu/fullscreen.vert", .fragment = "passes/screen_space_ao/blur.frag"});
+  multiplyProgram_ = device.program(
+      {.vertex = "gpu/fullscreen.vert", .fragment = "passes/screen_space_ao/multiply.frag"});
   // All sixteenths of a turn, so that four by four pixels together look everywhere.
   for (std::size_t i = 0; i < rotations_.size(); ++i) {
     constexpr std::array kOrder{0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5};
@@ -112,6 +125,13 @@ void ScreenSpaceAo::blur(gpu::Device& device, const Params& params, const Ports&
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.texture("visibility", from, gpu::kNearest);
   rendering.texture("depth", *ports.depth, gpu::kNearest);
+  rendering.fullscreen();
+}
+
+void ScreenSpaceAo::multiply(gpu::Device& device, const Ports& ports) {
+  gpu::Rendering rendering = device.render({.colors = {{ports.color.get()}}, .depth = {}});
+  rendering.use(*multiplyProgram_, {.blend = gpu::Blend::Multiply, .cull = gpu::Cull::None});
+  rendering.texture("visibility", *ports.ambientVisibility, gpu::kNearest);
   rendering.fullscreen();
 }
 
@@ -144,9 +164,11 @@ void ScreenSpaceAo::execute(graph::PassContext& context, const Params& params, c
     rendering.texture("normal", *ports.normal, gpu::kNearest);
     rendering.fullscreen();
   }
-  if (!blurs) return;
-  blur(device, params, ports, between_[0], between_[1], {1, 0});
-  blur(device, params, ports, between_[1], *ports.ambientVisibility, {0, 1});
+  if (blurs) {
+    blur(device, params, ports, between_[0], between_[1], {1, 0});
+    blur(device, params, ports, between_[1], *ports.ambientVisibility, {0, 1});
+  }
+  if (params.apply == Apply::Multiply) multiply(device, ports);
 }
 
 }  // namespace lucerna::passes

@@ -93,6 +93,33 @@ TEST_P(ScreenSpaceAo, DimsAmbientLightAlone) {
   }
 }
 
+// System A's way: all light, and pixels in which nothing was drawn as they were.
+TEST_P(ScreenSpaceAo, MultipliesThePictureIfTold) {
+  const scene::Scene scene = testing::sampleScene();
+  graph::Pipeline pipeline =
+      testing::rows({"Cull", "GBuffer", "Lighting", "Background", "ScreenSpaceAo"});
+  pipeline.passes.back().params = {{"apply", "multiply"}, {"radius", 2.0}, {"method", GetParam()}};
+  testing::SceneRenderer renderer(scene);
+  const auto output = renderer.render(
+      pipeline, kSize,
+      {"Background.color", "ScreenSpaceAo.ambientVisibility", "ScreenSpaceAo.color"});
+  ASSERT_TRUE(output) << output.error().message;
+  const Image& before = output->kept.at("Background.color");
+  const Image& share = output->kept.at("ScreenSpaceAo.ambientVisibility");
+  const Image& after = output->kept.at("ScreenSpaceAo.color");
+  int darker = 0;
+  for (int y = 0; y < after.height(); ++y)
+    for (int x = 0; x < after.width(); ++x)
+      for (int c = 0; c < 4; ++c) {
+        const float was = floatFromHalf(before.pixel<std::uint16_t>(x, y)[c]);
+        const float is = floatFromHalf(after.pixel<std::uint16_t>(x, y)[c]);
+        const float factor = c == 3 ? 1.f : static_cast<float>(at(share, x, y)) / 255.f;
+        EXPECT_NEAR(is, was * factor, 1e-3f * was) << x << ", " << y << ", component " << c;
+        darker += is < was;
+      }
+  EXPECT_GT(darker, 1000);
+}
+
 // Nothing drawn, nothing hidden.
 TEST_P(ScreenSpaceAo, EmptyPixelsAreFree) {
   scene::Scene scene = testing::emptyScene();
