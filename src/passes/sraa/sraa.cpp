@@ -11,9 +11,8 @@ void Sraa::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("sharpness", &Params::sharpness)
       .range(0.1, 1000)
       .help(
-          "How fast a pixel's weight falls with its difference from a sample: by e at a distance "
-          "of "
-          "1 / sharpness pixels, or that angle in radians.");
+          "How fast a pixel's weight falls with its distance from a sample, in doublings of a "
+          "pixel's size, or its angle to it in radians: exp(-sharpness * the greater).");
   d.read("scene", &Ports::scene).help("Its exposure, for weighing radiance.");
   d.read("view", &Ports::view).help("The view that all was drawn from.");
   d.read("depth", &Ports::depth)
@@ -28,11 +27,13 @@ void Sraa::describe(graph::PassInfo<Params, Ports>& d) {
       .help("View-space normal, octahedral; read only if there are normalSamples.");
   d.read("depthSamples", &Ports::depthSamples)
       .spec(gpu::TextureKind::Multisample2D, {Format::Depth32F})
+      .samples(4)
       .sameSizeAs("depth")
       .halo(1)
       .help("Reversed depth at places within each pixel.");
   d.read("normalSamples", &Ports::normalSamples)
       .spec(gpu::TextureKind::Multisample2D, {Format::Rg16Unorm})
+      .samples(4)
       .sameSizeAs("depth")
       .optional()
       .help("Normals there. Without them depth alone tells surfaces apart.");
