@@ -6,6 +6,7 @@ pass("GBuffer");
 pass("Lighting");
 pass("CustomShaders");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("ToneMap");
 pass("Fxaa");
