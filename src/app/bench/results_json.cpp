@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "app/bench/results.hpp"
@@ -71,7 +72,9 @@ void addMeasurement(Json& runs, const std::string& suite, std::size_t family,
     run["aggregate_unit"] = "time";
     run["iterations"] = m.realMs.size();
     addTimes(run, spreadOf(m.realMs).*value, spreadOf(m.cpuMs).*value);
-    for (const Counter& counter : m.counters) run[counter.name] = spreadOf(counter.samples).*value;
+    for (const Counter& counter : m.counters)
+      if (const double v = spreadOf(counter.samples).*value; std::isfinite(v))
+        run[counter.name] = v;
     runs.push_back(std::move(run));
   }
 }

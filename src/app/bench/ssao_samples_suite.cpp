@@ -92,7 +92,7 @@ std::string errorText(const Results& results, const Name& name) {
 }
 
 // Over all cameras, of one scene or of all: points at the sample counts, of median time (x) and
-// error (y).
+// error (y), in the order of samples.
 std::vector<glm::dvec2> errorOverTime(const Results& results, const Method& method,
                                       const std::string& scene) {
   std::vector<glm::dvec2> points;
@@ -102,7 +102,6 @@ std::vector<glm::dvec2> errorOverTime(const Results& results, const Method& meth
     points.emplace_back(spreadOf(results.times(name)).median,
                         spreadOf(results.samples(name, "mse")).median);
   }
-  std::ranges::sort(points, {}, [](const glm::dvec2& p) { return p.x; });
   return points;
 }
 
@@ -113,18 +112,21 @@ Table errorsAtTheSameTime(const Results& results) {
   std::vector<std::string> rows;
   for (const Method& method : kMethods) rows.push_back(method.name);
   return tableOf(
-      fmt::format("MSE in the time of the hemisphere's {} samples, against the hemisphere's",
-                  kSuffice),
-      "scene", scenes, rows, [&](const std::string& scene, const std::string& name) {
+      fmt::format(
+          "MSE in the time of the hemisphere's {} samples (against the hemisphere's); -: no "
+          "number of samples takes that long",
+          kSuffice),
+      "scene", scenes, rows, [&](const std::string& scene, const std::string& name) -> std::string {
         const auto method = std::ranges::find(kMethods, name, &Method::name);
         const auto hemisphere = std::ranges::find(kMethods, "hemisphere", &Method::name);
         Name thesis{hemisphere->label(), kSuffice};
         if (scene != all) thesis.push_back(scene);
         const double time = spreadOf(results.times(thesis)).median;
-        const double own =
+        const auto own =
             onLogCurve(errorOverTime(results, *method, scene == all ? "" : scene), time);
-        return fmt::format("{} ({:.2f})", numberText(own),
-                           own / spreadOf(results.samples(thesis, "mse")).median);
+        const double theirs = spreadOf(results.samples(thesis, "mse")).median;
+        return own && theirs > 0 ? fmt::format("{} ({:.2f})", numberText(*own), *own / theirs)
+                                 : "-";
       });
 }
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
-
-#include "core/check.hpp"
 
 namespace lucerna::app::bench {
 namespace {
@@ -13,7 +10,9 @@ double quantile(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return std::lerp(sorted[below], sorted[above], place - static_cast<double>(below));
+  const double fraction = place - static_cast<double>(below);
+  return fraction == 0 ? sorted[below]  // whatever stands above: std::lerp(1, inf, 0) is not 1
+                       : std::lerp(sorted[below], sorted[above], fraction);
 }
 
 }  // namespace
@@ -29,14 +28,26 @@ Spread spreadOf(std::span<const double> samples) {
           .max = sorted.back()};
 }
 
-double onLogCurve(std::span<const glm::dvec2> points, double x) {
-  CHECK(!points.empty());
-  std::size_t right = 0;
-  while (right < points.size() && points[right].x < x) ++right;
-  if (right == 0) return points.front().y;
-  if (right == points.size()) return points.back().y;
-  const glm::dvec2 a = glm::log(points[right - 1]), b = glm::log(points[right]);
-  return std::exp(std::lerp(a.y, b.y, (std::log(x) - a.x) / (b.x - a.x)));
+std::vector<double> pairedRatios(std::span<const double> samples,
+                                 std::span<const double> baseline) {
+  std::vector<double> ratios;
+  if (samples.size() != baseline.size()) return ratios;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    if (baseline[i] != 0) ratios.push_back(samples[i] / baseline[i]);
+  return ratios;
+}
+
+std::optional<double> onLogCurve(std::span<const glm::dvec2> points, double x) {
+  const auto point = std::ranges::find(points, x, [](const glm::dvec2& p) { return p.x; });
+  if (point != points.end()) return point->y > 0 ? std::optional(point->y) : std::nullopt;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const glm::dvec2 a = points[i], b = points[i + 1];
+    if ((a.x < x) == (b.x < x)) continue;
+    if (std::min({a.x, a.y, b.x, b.y}) <= 0) return std::nullopt;
+    const double share = std::log(x / a.x) / std::log(b.x / a.x);
+    return std::exp(std::lerp(std::log(a.y), std::log(b.y), share));
+  }
+  return std::nullopt;
 }
 
 }  // namespace lucerna::app::bench

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "core/math/math.hpp"
 
@@ -17,8 +19,13 @@ struct Spread {
 };
 Spread spreadOf(std::span<const double> samples);
 
-// y at x of a curve through points, x rising, all above 0: straight between neighbours on
-// logarithmic axes, the nearest point's y outside.
-double onLogCurve(std::span<const glm::dvec2> points, double x);
+// How many times as large each sample is as the baseline's of the same turn; turns in which that is
+// 0 are left out. Empty if they are not as many.
+std::vector<double> pairedRatios(std::span<const double> samples, std::span<const double> baseline);
+
+// y at x of a curve through points in their order, straight between neighbours on logarithmic axes:
+// that of a point at x if there is one, else where the curve first passes x. None if it never does,
+// or if a value there is not above 0.
+std::optional<double> onLogCurve(std::span<const glm::dvec2> points, double x);
 
 }  // namespace lucerna::app::bench

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace lucerna::app::bench {
@@ -32,11 +34,49 @@ TEST(Statistics, OneBadSampleDoesNotMoveTheMedian) {
 // y = 12 / x is straight on logarithmic axes.
 TEST(Statistics, ACurveIsStraightOnLogarithmicAxes) {
   const std::vector<glm::dvec2> points{{1, 12}, {4, 3}, {6, 2}};
-  EXPECT_NEAR(onLogCurve(points, 2), 6, 1e-12);
-  EXPECT_NEAR(onLogCurve(points, 5), 2.4, 1e-12);
-  EXPECT_DOUBLE_EQ(onLogCurve(points, 4), 3);
-  EXPECT_DOUBLE_EQ(onLogCurve(points, 0.5), 12);
-  EXPECT_DOUBLE_EQ(onLogCurve(points, 60), 2);
+  EXPECT_NEAR(onLogCurve(points, 2).value(), 6, 1e-12);
+  EXPECT_NEAR(onLogCurve(points, 5).value(), 2.4, 1e-12);
+  EXPECT_EQ(onLogCurve(points, 4), 3);
+}
+
+TEST(Statistics, ACurveEndsAtItsPoints) {
+  const std::vector<glm::dvec2> points{{1, 12}, {4, 3}, {6, 2}};
+  EXPECT_EQ(onLogCurve(points, 0.99), std::nullopt);
+  EXPECT_EQ(onLogCurve(points, 6.01), std::nullopt);
+  EXPECT_EQ(onLogCurve(points, 1), 12);
+  EXPECT_EQ(onLogCurve(points, 6), 2);
+  EXPECT_EQ(onLogCurve({}, 1), std::nullopt);
+}
+
+// The third point took less time than the second: it still lies between its neighbours.
+TEST(Statistics, ACurveGoesThroughItsPointsInTheirOrder) {
+  const std::vector<glm::dvec2> points{{1, 12}, {4, 3}, {3, 2}, {9, 1}};
+  EXPECT_EQ(onLogCurve(points, 3), 2);
+  EXPECT_NEAR(onLogCurve(points, 2).value(), 6, 1e-12);
+  EXPECT_NEAR(onLogCurve(points, std::sqrt(27.)).value(), std::sqrt(2.), 1e-12);
+}
+
+TEST(Statistics, WithoutErrorThereIsNoLogarithm) {
+  EXPECT_EQ(onLogCurve(std::vector<glm::dvec2>{{1, 0}, {4, 3}}, 2), std::nullopt);
+  EXPECT_EQ(onLogCurve(std::vector<glm::dvec2>{{1, 0}, {4, 3}}, 1), std::nullopt);
+}
+
+TEST(Statistics, AnInfiniteSampleLeavesTheLowerQuantilesAlone) {
+  const double infinite = std::numeric_limits<double>::infinity();
+  const Spread spread = spreadOf(std::vector<double>{1, 2, infinite});
+  EXPECT_EQ(spread.median, 2);
+  EXPECT_EQ(spread.lower, 1.5);
+  EXPECT_EQ(spread.max, infinite);
+}
+
+// One camera is ten times as dear as the other: the ratio is 2 at both, that of the pooled medians
+// anything.
+TEST(Statistics, RatiosAreOfTheSameTurn) {
+  EXPECT_EQ(pairedRatios(std::vector<double>{2, 20, 200}, std::vector<double>{1, 10, 100}),
+            (std::vector<double>{2, 2, 2}));
+  EXPECT_EQ(pairedRatios(std::vector<double>{2, 3}, std::vector<double>{1, 0}),
+            std::vector<double>{2});
+  EXPECT_TRUE(pairedRatios(std::vector<double>{2, 3}, std::vector<double>{1}).empty());
 }
 
 }  // namespace
