@@ -87,7 +87,7 @@ class BenchTest(unittest.TestCase):
                 self.assertLessEqual(runs[name + "_min"]["real_time"], median["real_time"])
                 self.assertLessEqual(median["real_time"], runs[name + "_max"]["real_time"])
         self.assertGreater(runs["passes/48x36/GBuffer/cornell_median"]["primitives"], 1)
-        self.assertIn("**96x72 against 48x36, ratio of medians**", text)
+        self.assertIn("**96x72 against 48x36, median of the ratios**", text)
 
     def test_forward_and_deferred_draw_the_same_primitives(self):
         runs, text = self.measured("forward", *small(cameras=2))

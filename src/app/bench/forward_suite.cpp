@@ -52,8 +52,8 @@ Table timesOf(const Results& results, const std::string& size) {
   const std::string ratio = kForward + " / " + kDeferred;
   return tableOf(size + ", ms", "chain", {kForward, kDeferred, ratio}, results.parts(2, {size}),
                  [&](const std::string& row, const std::string& scene) {
-                   return row == ratio ? ratioText(results.times({size, kForward, scene}),
-                                                   results.times({size, kDeferred, scene}))
+                   return row == ratio ? ratioText(results.ratios({size, kForward, scene},
+                                                                  {size, kDeferred, scene}))
                                        : spreadText(results.times({size, row, scene}));
                  });
 }

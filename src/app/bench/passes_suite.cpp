@@ -130,12 +130,12 @@ std::vector<Block> report(const Results& results) {
                                   return spreadText(results.times({size, pass, scene}));
                                 }));
   if (sizes.size() > 1)
-    blocks.emplace_back(tableOf(sizes.back() + " against " + sizes.front() + ", ratio of medians",
-                                "pass", passes, scenes,
-                                [&](const std::string& pass, const std::string& scene) {
-                                  return ratioText(results.times({sizes.back(), pass, scene}),
-                                                   results.times({sizes.front(), pass, scene}));
-                                }));
+    blocks.emplace_back(
+        tableOf(sizes.back() + " against " + sizes.front() + ", median of the ratios", "pass",
+                passes, scenes, [&](const std::string& pass, const std::string& scene) {
+                  return ratioText(
+                      results.ratios({sizes.back(), pass, scene}, {sizes.front(), pass, scene}));
+                }));
   blocks.emplace_back(drawsTable(results, sizes.front(), "pass", passes, scenes));
   for (const std::string& size : sizes) blocks.emplace_back(barsOf(results, size));
   return blocks;

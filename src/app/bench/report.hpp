@@ -55,9 +55,8 @@ struct Report {
 // alone;
 // "-" is none.
 std::string spreadText(std::span<const double> samples);
-std::string numberText(double value);  // three digits that count
-// "1.45": how many times as large the median of `samples` is as that of `baseline`.
-std::string ratioText(std::span<const double> samples, std::span<const double> baseline);
+std::string numberText(double value);                   // three digits that count
+std::string ratioText(std::span<const double> ratios);  // "1.45": their median; "-" is none
 
 std::string svgOf(const LinePlot& plot);
 std::string svgOf(const BarPlot& plot);

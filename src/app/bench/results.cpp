@@ -9,6 +9,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "app/bench/statistics.hpp"
 #include "core/version.hpp"
 
 namespace lucerna::app::bench {
@@ -98,6 +99,21 @@ std::vector<double> Results::samples(const Name& begin, std::string_view counter
   for (const Measurement& m : measurements)
     if (const auto& own = m.samples(counter); beginsWith(m.name, begin))
       all.insert(all.end(), own.begin(), own.end());
+  return all;
+}
+
+std::vector<double> Results::ratios(const Name& begin, const Name& baseline) const {
+  std::vector<double> all;
+  for (const Measurement& m : measurements) {
+    if (!beginsWith(m.name, begin)) continue;
+    Name other = baseline;
+    other.insert(other.end(), m.name.begin() + static_cast<std::ptrdiff_t>(begin.size()),
+                 m.name.end());
+    if (const Measurement* against = find(other)) {
+      const std::vector<double> own = pairedRatios(m.realMs, against->realMs);
+      all.insert(all.end(), own.begin(), own.end());
+    }
+  }
   return all;
 }
 

@@ -62,6 +62,9 @@ struct Results {
   // The samples of all measurements whose names begin so: of real time, or of a counter.
   std::vector<double> times(const Name& begin) const;
   std::vector<double> samples(const Name& begin, std::string_view counter) const;
+  // pairedRatios() of real times, each measurement against that whose name begins with `baseline`
+  // in place of `begin`: of the same scene, and sample by sample of the same place and round.
+  std::vector<double> ratios(const Name& begin, const Name& baseline) const;
   // Adds the note unless it is there already.
   void note(const std::string& text);
   // The different parts at `place` of names that begin with `begin`, in order.
@@ -70,7 +73,8 @@ struct Results {
 
 // As Google Benchmark writes it (--benchmark_out, json_schema_version 1), so that its tools read
 // it: a run of type "iteration" for each sample of time and the aggregates "median",
-// "lower_quartile", "upper_quartile", "min" and "max", which have the counters.
+// "lower_quartile", "upper_quartile", "min" and "max", which have the counters that are finite (the
+// PSNR of equal pictures is not).
 std::string googleBenchmarkJson(const std::vector<Results>& suites);
 
 }  // namespace lucerna::app::bench

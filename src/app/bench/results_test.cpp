@@ -35,6 +35,20 @@ TEST(BenchResults, AreFoundByTheirNames) {
   EXPECT_THAT(results.samples({"800x600"}, "primitives"), IsEmpty());
 }
 
+TEST(BenchResults, RatiosPairScenesAndSamples) {
+  Results results;
+  for (const char* scene : {"atrium", "city"})
+    for (const char* chain : {"slow", "fast"}) results.at({chain, scene});
+  results.at({"slow", "city"}).realMs = {40, 90};
+  results.at({"fast", "city"}).realMs = {10, 30};
+  results.at({"fast", "atrium"}).realMs = {1};
+  results.at({"slow", "atrium"}).realMs = {2};
+  results.at({"slow", "elsewhere"}).realMs = {7};
+  EXPECT_THAT(results.ratios({"slow"}, {"fast"}), ElementsAre(2, 4, 3));
+  EXPECT_THAT(results.ratios({"slow", "city"}, {"fast", "city"}), ElementsAre(4, 3));
+  EXPECT_THAT(results.ratios({"slow"}, {"none"}), IsEmpty());
+}
+
 TEST(BenchResults, ANoteIsSaidOnce) {
   Results results;
   results.note("Skipped: sponza");
@@ -72,6 +86,19 @@ TEST(BenchJson, ASampleIsAnIterationAndTheMedianAnAggregate) {
   EXPECT_EQ(median["cpu_time"], 0.2);
   EXPECT_EQ(median["iterations"], 3);
   EXPECT_EQ(median["draws"], 4.0);
+}
+
+TEST(BenchJson, WhatIsInfiniteIsLeftOut) {
+  Results results = exampleResults();
+  Measurement& cull = results.at({"800x600", "Cull", "atrium"});
+  for (const double psnr : {30., 40., std::numeric_limits<double>::infinity()})
+    cull.count("psnr", psnr);
+  const std::string text = googleBenchmarkJson({results});
+  EXPECT_THAT(text, testing::Not(testing::HasSubstr("null")));
+  const Json runs = Json::parse(text)["benchmarks"];
+  EXPECT_EQ(runs[3]["psnr"], 40.0);
+  EXPECT_EQ(runs[7]["name"], "passes/800x600/Cull/atrium_max");
+  EXPECT_FALSE(runs[7].contains("psnr"));
 }
 
 TEST(BenchJson, SaysHowMuchEachSuiteMeasured) {

@@ -98,7 +98,7 @@ Table thesisTable(const Results& results, const std::vector<std::string>& scenes
         const auto other = results.samples({"uniform", mapSizes(results).back(), scene}, "flip");
         if (column == lispsm) return flipText(own);
         if (column == uniform) return flipText(other);
-        if (column == ratio) return ratioText(own, other);
+        if (column == ratio) return ratioText(pairedRatios(own, other));
         std::size_t cameras = 0;
         for (std::size_t i = 0; i < own.size(); ++i) cameras += own[i] < other[i];
         return fmt::format("{} of {} cameras", cameras, own.size());
@@ -106,10 +106,9 @@ Table thesisTable(const Results& results, const std::vector<std::string>& scenes
 }
 
 Table ratioTable(const Results& results, const std::vector<std::string>& sizes) {
-  return tableOf("Time against uniform of the same size, all scenes: ratio of medians", "size",
+  return tableOf("Time against uniform of the same size, all scenes: median of the ratios", "size",
                  sizes, kMethods, [&](const std::string& size, const std::string& method) {
-                   return ratioText(results.times({method, size}),
-                                    results.times({"uniform", size}));
+                   return ratioText(results.ratios({method, size}, {"uniform", size}));
                  });
 }
 

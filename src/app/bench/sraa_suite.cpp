@@ -160,15 +160,15 @@ Table framesTable(const Results& results, const std::string& size, const std::st
   const std::string ratio = "4x supersampling / SRAA";
   std::vector<std::string> columns = kTechniques;
   columns.push_back(ratio);
-  const auto times = [&](const std::string& technique, const std::string& scene) {
-    return results.times({kFrame, size, effects, technique, scene});
+  const auto name = [&](const std::string& technique, const std::string& scene) {
+    return Name{kFrame, size, effects, technique, scene};
   };
   return tableOf("A frame with " + effects + ", " + size + ", ms: median (quartiles)", "scene",
                  results.parts(4, {kFrame, size, effects}), columns,
                  [&](const std::string& scene, const std::string& column) {
-                   return column == ratio
-                              ? ratioText(times(kSupersampling, scene), times(kSraa, scene))
-                              : spreadText(times(column, scene));
+                   return column == ratio ? ratioText(results.ratios(name(kSupersampling, scene),
+                                                                     name(kSraa, scene)))
+                                          : spreadText(results.times(name(column, scene)));
                  });
 }
 

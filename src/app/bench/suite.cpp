@@ -87,14 +87,17 @@ Status Run::takeTurns(const Turns& turns, double share) {
   double pixels = 0;
   for (const Lane& lane : lanes_) pixels += pixelsOf(lane) * (extent.rounds + 1);
   if (turns.prepare) LUCERNA_TRY_VOID(turns.prepare());
-  for (int round = 0; round <= extent.rounds; ++round)
-    for (const Lane& lane : lanes_) {
-      const bool warmUp = round == 0;
-      Image picture;
-      LUCERNA_TRY(sample, stage.draw(lane.variant, warmUp && turns.see ? &picture : nullptr));
-      if (!warmUp) turns.take(lane.name, sample);
-      if (!picture.empty()) turns.see(lane.name, picture);
-      advance(share * pixelsOf(lane) / pixels);
+  for (const Lane& lane : lanes_) {
+    Image picture;
+    LUCERNA_TRY_VOID(stage.draw(lane.variant, turns.see ? &picture : nullptr));
+    if (turns.see) turns.see(lane.name, picture);
+    advance(share * pixelsOf(lane) / pixels);
+  }
+  for (int round = 0; round < extent.rounds; ++round)
+    for (const std::size_t i : turnOrder(lanes_.size(), rounds_++)) {
+      LUCERNA_TRY(sample, stage.draw(lanes_[i].variant));
+      turns.take(lanes_[i].name, sample);
+      advance(share * pixelsOf(lanes_[i]) / pixels);
     }
   return {};
 }
@@ -112,6 +115,17 @@ void Run::advance(double share) {
   const std::uint64_t before = units();
   done_ += share;
   progress_.advance(units() - before);
+}
+
+std::vector<std::size_t> turnOrder(std::size_t count, std::size_t round) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t place = i % 2 == 1 ? (i + 1) / 2 : count - i / 2;  // 0, 1, -1, 2, -2, ...
+    order.push_back((place + round) % count);
+  }
+  const bool secondTime = count > 0 && round / count % 2 == 1;
+  if (count % 2 == 1 && secondTime) std::ranges::reverse(order);
+  return order;
 }
 
 std::span<const Suite> suites() {

@@ -68,8 +68,8 @@ class Run {
     std::function<void(const Name& name, const Image& picture)> see = nullptr;  // of the warm-up
   };
   // From where the camera stands: draws each variant once to warm up, in the order in which they
-  // were added, then in as many rounds as extent has. share: of the scene's work that this is.
-  // Errors: those of prepare() and of drawing; ErrorKind::Cancelled.
+  // were added, then in as many rounds as extent has, each in another order. share: of the scene's
+  // work that this is. Errors: those of prepare() and of drawing; ErrorKind::Cancelled.
   Status takeTurns(const Turns& turns, double share);
   // That at each of the cameras.
   Status takeTurnsEverywhere(const Turns& turns);
@@ -78,13 +78,19 @@ class Run {
   void advance(double share);
 
   Progress& progress_;
-  double done_ = 0;  // of the scene's work
+  double done_ = 0;         // of the scene's work
+  std::size_t rounds_ = 0;  // of all places so far
   struct Lane {
     Name name;
     std::size_t variant;
   };
   std::vector<Lane> lanes_;
 };
+
+// In which order `count` variants draw in a round: over `count` rounds (twice as many if count is
+// odd) each follows each other one equally often (Williams, "Experimental Designs Balanced for the
+// Estimation of Residual Effects of Treatments", 1949).
+std::vector<std::size_t> turnOrder(std::size_t count, std::size_t round);
 
 struct Suite {
   std::string_view name, title;
