@@ -148,6 +148,8 @@ void DepthOfField::execute(graph::PassContext& context, const Params& params, co
   const Inputs in{params, ports, lensOf(*ports.view, params)};
   if (params.show == Show::Setup)
     setUp(context.device, in);
+  else if (params.lensRadius == 0.f)
+    context.device.copy(*ports.input, *ports.output);
   else if (params.method == Method::Gather)
     gather(context.device, in);
   else

@@ -29,13 +29,16 @@ Light fromLayer(ivec2 tap, sampler2D layer, sampler2D cover) {
   vec4 found = texelFetch(layer, tap, 0);
   return Light(found.rgb, found.a, texelFetch(cover, tap, 0).r);
 }
-Light farLight(vec2 offset, float stride) {
+// From the layer where it is read in strides: known when the shader is compiled, so that the other is not read.
+Light farLight(vec2 offset, bool strides) {
   ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
-  return stride == 1.0 ? fromPicture(tap, 1.0) : fromLayer(tap, farLayer, farCover);
+  if (strides) return fromLayer(tap, farLayer, farCover);
+  return fromPicture(tap, 1.0);
 }
-Light nearLight(vec2 offset, float stride) {
+Light nearLight(vec2 offset, bool strides) {
   ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
-  return stride == 1.0 ? fromPicture(tap, -1.0) : fromLayer(tap, nearLayer, nearCover);
+  if (strides) return fromLayer(tap, nearLayer, nearCover);
+  return fromPicture(tap, -1.0);
 }
 float ownRadius(float radius, float stride) {
   return stride == 1.0 ? radius : unsmoothed(radius, widestStride(pixel));
@@ -60,7 +63,7 @@ float inFront(float radius, float other) { return smoothstep(kSame, kOther, radi
 
 // A surface behind the plane in focus. A tap counts as far as its own circle and the pixel's reach: what is
 // farther away is covered by what is nearer, and never spreads over it.
-vec3 farColor(float radius) {
+vec3 farColor(float radius, bool strides) {
   float stride = strideOf(radius), own = ownRadius(radius, stride);
   int rows = rowsOf(radius, stride);
   vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0);
@@ -68,42 +71,60 @@ vec3 farColor(float radius) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
-      Light light = farLight(offset, stride);
+      Light light = farLight(offset, strides);
       sum += light.cover * share(min(light.radius, own), length(offset), stride) * vec4(light.color, 1.0);
     }
   }
   return sum.rgb / sum.a;
 }
 
+// What a surface before the plane in focus hides is like what is nearest beside it.
+vec4 hiddenColor(float own, float stride, int rows, bool strides) {
+  vec4 sum = vec4(0.0);
+  for (int y = -rows; y <= rows; ++y) {
+    int taps = tapsOf(y, rows);
+    for (int x = -taps; x <= taps; ++x) {
+      vec2 offset = stride * vec2(x, y);
+      Light light = nearLight(offset, strides);
+      float closeness = 1.0 / (1.0 + dot(offset, offset));
+      vec4 further = light.cover * inFront(own, light.radius) * vec4(light.color, 1.0);
+      if (light.cover < 1.0) further += textureLod(behind, (gl_FragCoord.xy + offset) * uvOfPixel, 0.0);
+      sum += closeness * closeness * further;
+    }
+  }
+  return sum;
+}
+
 // A surface before it. It leaves a share of the pixel's circle open to what is behind; the picture does not have
 // that where the surface is, but it is like what is nearest beside it.
-vec3 nearColor(float radius) {
+vec3 nearColor(float radius, bool strides) {
   float stride = strideOf(radius), own = ownRadius(radius, stride);
-  int rows = rowsOf(min(kOther * radius, largestAt(pixel).x), stride);
-  vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0), hidden = vec4(0.0);
+  int rows = rowsOf(min(kSame * radius, largestAt(pixel).x), stride);
+  vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0);
   float open = 0.0;
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
-      Light light = nearLight(offset, stride);
+      Light light = nearLight(offset, strides);
       float weight = share(own, length(offset), stride);
-      float closeness = 1.0 / (1.0 + dot(offset, offset));
       float notInFront = 1.0 - inFront(light.radius, own), further = inFront(own, light.radius);
-      vec4 surface = light.cover * notInFront * vec4(light.color, 1.0);
-      sum += share(light.radius, length(offset), stride) * (1.0 - further) * surface;
-      open += weight * (further * surface.a + notInFront * (1.0 - light.cover));
-      hidden += closeness * closeness * further * surface;
-      if (light.cover < 1.0)
-        hidden += closeness * closeness * texture(behind, (gl_FragCoord.xy + offset) * uvOfPixel);
+      float surface = light.cover * notInFront;
+      sum += share(light.radius, length(offset), stride) * (1.0 - further) * surface * vec4(light.color, 1.0);
+      open += weight * (further * surface + notInFront * (1.0 - light.cover));
     }
   }
-  vec3 surface = sum.rgb / sum.a;
-  return hidden.a > 0.0 ? mix(surface, hidden.rgb / hidden.a, open / (open + sum.a)) : surface;
+  vec3 color = sum.rgb / sum.a;
+  open /= open + sum.a;
+  if (open > 0.004) {
+    vec4 hidden = hiddenColor(own, stride, rows, strides);
+    if (hidden.a > 0.0) color = mix(color, hidden.rgb / hidden.a, open);
+  }
+  return color;
 }
 
 // The light that what lies in front throws on the pixel; a: how much of it that covers.
-vec4 front(float radius, float own) {
+vec4 front(float radius, float own, bool strides) {
   float stride = strideOf(radius);
   int rows = rowsOf(radius, stride);
   vec4 sum = vec4(0.0);
@@ -111,7 +132,7 @@ vec4 front(float radius, float own) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
-      Light light = nearLight(offset, stride);
+      Light light = nearLight(offset, strides);
       float weight = light.cover * inFront(light.radius, own) * share(light.radius, length(offset), stride);
       sum += weight * vec4(light.color, 1.0);
     }
@@ -124,11 +145,21 @@ void main() {
   last = textureSize(color, 0) - 1;
   blurred = texelFetch(color, pixel, 0);
   float circle = circleAt(texelFetch(depth, pixel, 0).r);
-  if (circle > kSharp) blurred.rgb = farColor(circle);
-  if (circle < -kSharp) blurred.rgb = nearColor(-circle);
+  float radius = abs(circle);
+  bool strides = strideOf(radius) > 1.0;
+  if (circle > kSharp) {
+    if (strides) blurred.rgb = farColor(radius, true);
+    else blurred.rgb = farColor(radius, false);
+  }
+  if (circle < -kSharp) {
+    if (strides) blurred.rgb = nearColor(radius, true);
+    else blurred.rgb = nearColor(radius, false);
+  }
 
   float own = max(-circle, kSharp), largestNear = largestAt(pixel).x;
   if (largestNear <= kSame * own) return;
-  vec4 light = front(largestNear, own);
+  vec4 light;
+  if (strideOf(largestNear) > 1.0) light = front(largestNear, own, true);
+  else light = front(largestNear, own, false);
   if (light.a > 0.0) blurred.rgb = mix(blurred.rgb, light.rgb / light.a, min(1.05 * light.a, 1.0));
 }
