@@ -22,7 +22,6 @@
 #include "render/light_list.hpp"
 #include "render/view_data.hpp"
 #include "render/view_group.hpp"
-#include "render/view_group.hpp"
 
 namespace lucerna::app {
 

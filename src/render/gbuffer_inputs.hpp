@@ -12,14 +12,19 @@ struct GBufferInputs {
 };
 
 // Ports: derived from GBufferInputs.
+// depthHalo: px of depth read around the pixel.
 template <typename Params, typename Ports>
-void readGBuffer(graph::PassInfo<Params, Ports>& d) {
+void readGBuffer(graph::PassInfo<Params, Ports>& d, int depthHalo = 0) {
   using gpu::Format;
   const auto read = [&](const char* name, graph::In<gpu::Texture> GBufferInputs::* member,
                         Format format, const char* help) {
     auto port = d.read(name, static_cast<graph::In<gpu::Texture> Ports::*>(member));
     port.texture(format).help(help);
-    if (member != &GBufferInputs::depth) port.sameSizeAs("depth");
+    if (member == &GBufferInputs::depth) {
+      port.halo(depthHalo);
+    } else {
+      port.sameSizeAs("depth");
+    }
   };
   read("depth", &GBufferInputs::depth, Format::Depth32F, "Reversed depth.");
   read("normal", &GBufferInputs::normal, Format::Rg16Unorm, "View-space normal, octahedral.");

@@ -14,6 +14,7 @@ void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, int side
   int layers = 0;
   for (const ShadowMaps::Map& map : shadowMaps.maps)
     if (map.local == local) layers = std::max(layers, map.layer + 1);
+  if (layers == 0 && texture) return;
   if (layers == 0) side = layers = 1;
   if (texture && texture.width() == side && texture.desc().layers >= layers) return;
   texture = {};  // before the new one is made
@@ -28,7 +29,7 @@ void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, int side
 }  // namespace
 
 void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directionalSide,
-                      int localSide) {
+                       int localSide) {
   fit(device, shadowMaps, false, directionalSide, shadowMaps.directional);
   fit(device, shadowMaps, true, localSide, shadowMaps.local);
   std::vector<blocks::ShadowMapValues> maps;
@@ -37,8 +38,10 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directio
     const float texel = 1.f / static_cast<float>(texture.width());
     maps.push_back({.clipFromWorld = map.projection.clipFromWorld(),
                     .texel = vec4(map.projection.side * texel, texel, map.projection.shear),
-                    .axisW = glm::transpose(map.projection.viewFromWorld)[2],
+                    .axisW = vec4(vec3(glm::transpose(map.projection.viewFromWorld)[2]),
+                                  map.projection.depthRange),
                     .depthPlaneW = map.projection.depthPlaneW,
+                    .inner = vec4(map.projection.inner, 0.f, 0.f, 0.f),
                     .place = uvec4(map.layer, map.local ? 1 : 0, 0, 0)});
   }
   std::vector<uvec4> lights;

@@ -27,13 +27,14 @@ struct ShadowMaps {
   gpu::Buffer mapBlock, lightBlock;
 };
 
-// Free at each edge of a map, in texels, so that filters of up to nine by nine stay inside it.
-inline constexpr int kShadowMargin = 5;
+// Free at each edge of a map, in texels, so that filters of up to nine by nine stay inside it, with
+// the way that points are moved before they are compared.
+inline constexpr int kShadowMargin = 12;
 
 // Makes textures of the given sides (texels) and the blocks for maps and ofLight. What the textures
 // show is up to the caller.
 void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directionalSide,
-                      int localSide);
+                       int localSide);
 
 void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool filtered);
 

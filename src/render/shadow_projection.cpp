@@ -10,7 +10,7 @@ namespace {
 
 // The near plane of a lamp's map, in parts of its far plane's distance: reversed float depth
 // forgives it.
-constexpr float kNearShare = 1e-4f;
+constexpr float kNearShare = 1e-6f;
 
 struct Range {
   float low = std::numeric_limits<float>::infinity(),
@@ -90,7 +90,7 @@ std::vector<vec3> visibleSamples(std::span<const scene::View> views, const scene
       const vec4 beyond = worldFromClip * vec4(ndc, 0.5f, 1.f);
       const vec3 from = vec3(onNear) / onNear.w;
       const vec3 direction = glm::normalize(vec3(beyond) / beyond.w - from);
-      const float distance = bvh.firstEntered(from, direction);
+      const float distance = bvh.firstSide(from, direction);
       if (std::isfinite(distance)) samples.push_back(from + distance * direction);
     }
   }
@@ -200,6 +200,9 @@ ShadowProjection directionalProjection(vec3 directionW, std::span<const vec3> bo
   clip[2].z = 1.f / height.length();
   clip[3].z = -height.low / height.length();
   result.side = vec2(2.f * half, depth / (1.f + warp)) / inner;
+  result.inner = inner;
+  result.warped = warp > 0.f;
+  result.depthRange = height.length();
   result.shear = slope * std::max(std::abs(width.low), std::abs(width.high));
   result.depthPlaneW = glm::transpose(result.viewFromWorld)[2] / height.length();
   result.depthPlaneW.w -= height.low / height.length();
@@ -242,6 +245,7 @@ std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
   result.clipFromView = frustumReversed(near * width.low, near * width.high, near * height.low,
                                         near * height.high, near, far);
   result.side = vec2(std::max(width.length(), height.length()));
+  result.inner = 1.f - 2.f * margin;
   return result;
 }
 

@@ -19,6 +19,10 @@ struct ShadowProjection {
   // `shear` of its length, for columns of a warped map are not parallel.
   vec2 side{0.f};
   float shear = 0.f;
+  // Part of the map, from its middle, that it is made for; the rest is for filters.
+  float inner = 1.f;
+  bool warped = false;     // of directional lights: columns are not parallel
+  float depthRange = 0.f;  // m, of directional lights
   // Of directional lights, the depth that the map holds: dot(xyz, positionW) + w. Under a warp that
   // of clip space is not linear along the map, so that a wide texel holds the depths of other
   // distances: at the far end of a city metres of them.
@@ -40,7 +44,8 @@ Viewer viewerOf(std::span<const scene::View> views);
 std::vector<vec3> visibleBody(std::span<const scene::View> views, const Aabb& boxW,
                               std::span<const vec4> furtherPlanes = {});
 
-// Points that the views probably show: where rays all over them enter the first box of an object.
+// Points that the views probably show: where rays all over them enter the first object's box or
+// leave one that they start in, as a room.
 std::vector<vec3> visibleSamples(std::span<const scene::View> views, const scene::Bvh& bvh);
 
 // The strength of a warp, d / n in the terms of light-space perspective shadow maps: d the body's

@@ -135,6 +135,21 @@ TEST(ShadowProjection, ManyViewsAndLightsCoverAllReceivers) {
   }
 }
 
+// Eyes that look different ways share a map that shows what either sees.
+TEST(ShadowProjection, AGroupsMapCoversWhatEachOfItsViewsSees) {
+  const std::vector<scene::View> views{streetView({0.3f, 0, -1}), streetView({-0.9f, 0, -0.2f})};
+  const vec3 directionW = glm::normalize(vec3(-0.3f, -1, 0.2f));
+  const std::vector<vec3> body = visibleBody(views, kBoxW);
+  const ShadowProjection projection = directionalProjection(
+      directionW, body, kBoxW, viewerOf(views), warpOf(directionW, views), 0.f);
+  for (const scene::View& view : views)
+    for (const vec3& point : visiblePoints(view, 50)) {
+      const vec3 ndc = ndcOf(projection, point);
+      EXPECT_LE(std::max(std::abs(ndc.x), std::abs(ndc.y)), 1.001f);
+      EXPECT_GE(ndc.z, -1e-4f);
+    }
+}
+
 // Whatever lies between a receiver and the light is in the map, wherever the camera is.
 TEST(ShadowProjection, CastersBehindTheCameraAreInTheMap) {
   const scene::View view = streetView();
@@ -198,6 +213,14 @@ TEST(ShadowProjection, ALampsMapIsCroppedToWhatIsSeen) {
   const LightPyramid behind{
       .positionW = {0, 8, 15}, .axisW = {0, -1, 0}, .tangent = 0.5f, .reach = 20.f};
   EXPECT_FALSE(localProjection(behind, views, kBoxW, 0.f));
+  // Half of what this one lights is beside the picture.
+  const LightPyramid beside{
+      .positionW = {22, 8, -20}, .axisW = {0, -1, 0}, .tangent = 1.f, .reach = 20.f};
+  const auto cropped = localProjection(beside, views, kBoxW, 0.f);
+  ASSERT_TRUE(cropped);
+  const vec3 seen = ndcOf(*cropped, {15, 0, -20}), unseen = ndcOf(*cropped, {29, 0, -20});
+  EXPECT_LE(std::max(std::abs(seen.x), std::abs(seen.y)), 1.f);
+  EXPECT_GT(std::max(std::abs(unseen.x), std::abs(unseen.y)), 1.f);
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ uniform float shadowNormalBias = 0.0;
 
 // Of a position that was found by its depth, as a share of its distance from the eye.
 const float kPositionRounding = 2e-5;
+// Of depth in a map and of what it is made from, as a share of their range.
+const float kMapRounding = 5e-7;
 
 float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
   vec4 at = vec4(uvDepth.xy, float(map.place.x), uvDepth.z);
@@ -39,13 +41,16 @@ float filteredShadow(ShadowMapValues map, vec3 uvDepth) {
 // to its reach over the map times the surface's slope there. Moved off the surface by reach times the
 // sine of the slope, a plane never shadows itself.
 vec3 movedForShadow(ShadowMapValues map, float w, vec3 positionW, vec3 normalW, vec3 toLightW) {
-  vec2 texel = map.texel.xy * (map.place.y == 0u ? vec2(w, w * w) : vec2(w));  // m
+  bool directional = map.place.y == 0u;
+  vec2 texel = map.texel.xy * (directional ? vec2(w, w * w) : vec2(w));  // m
   float corner = length(vec2(texel.x + map.texel.w * texel.y, texel.y));
   float reach = shadowFilterReach * corner;
   float cosine = dot(normalW, map.axisW.xyz);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
-  float off = shadowNormalBias * (reach * sine + kPositionRounding * distance(positionW, view.eyeW.xyz));
-  return positionW + normalW * off + toLightW * shadowBias;
+  float rounding = kPositionRounding * distance(positionW, view.eyeW.xyz);
+  float mapRounding = kMapRounding * (length(positionW) + (directional ? map.axisW.w : w));
+  return positionW + normalW * (shadowNormalBias * (reach * sine + rounding)) +
+         toLightW * (shadowBias + mapRounding);
 }
 
 float depthInMap(ShadowMapValues map, vec4 clip, vec3 positionW) {
@@ -53,22 +58,34 @@ float depthInMap(ShadowMapValues map, vec4 clip, vec3 positionW) {
                            : clip.z / clip.w;
 }
 
-// Share of the light (index as in LightBlock) that arrives, 0 to 1. toLightW: unit, from the point.
-float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
-  if (light >= uint(lightShadows.length())) return 1.0;  // where nobody made maps
-  uvec4 range = lightShadows[light];
-  float visibility = 1.0;
-  bool found = false;
+// The light's map to look a point up in, -1: none shows it. The first that is made for it, or else
+// one that shows it in its margin, where the filter may meet the border.
+int shadowMapOf(uvec4 range, vec3 positionW) {
+  int chosen = -1;
+  bool chosenInner = false;
   // One plain loop that all pixels go through to its end: see shade() of render/shading.glsl.
   for (uint i = range.x; i < range.x + range.y; ++i) {
     vec4 clip = shadowMaps[i].clipFromWorld * vec4(positionW, 1.0);
-    bool inside = clip.w > 0.0 && max(abs(clip.x), abs(clip.y)) <= clip.w && clip.z >= 0.0;
-    if (found || !inside) continue;
-    found = true;
-    vec3 movedW = movedForShadow(shadowMaps[i], clip.w, positionW, normalW, toLightW);
-    clip = shadowMaps[i].clipFromWorld * vec4(movedW, 1.0);
-    visibility = filteredShadow(shadowMaps[i], vec3(0.5 * clip.xy / clip.w + 0.5,
-                                                    depthInMap(shadowMaps[i], clip, movedW)));
+    float off = max(abs(clip.x), abs(clip.y));
+    bool inside = clip.w > 0.0 && off <= clip.w && clip.z >= 0.0;
+    bool inner = inside && off <= shadowMaps[i].inner.x * clip.w;
+    if ((inside && chosen < 0) || (inner && !chosenInner)) {
+      chosen = int(i);
+      chosenInner = inner;
+    }
   }
-  return visibility;
+  return chosen;
+}
+
+// Share of the light (index as in LightBlock) that arrives, 0 to 1. normalW: of the surface's true
+// plane, not of its shading; toLightW: from the point; both unit.
+float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
+  if (light >= uint(lightShadows.length())) return 1.0;  // where nobody made maps
+  int chosen = shadowMapOf(lightShadows[light], positionW);
+  if (chosen < 0) return 1.0;
+  ShadowMapValues map = shadowMaps[chosen];
+  float w = (map.clipFromWorld * vec4(positionW, 1.0)).w;
+  vec3 movedW = movedForShadow(map, w, positionW, normalW, toLightW);
+  vec4 clip = map.clipFromWorld * vec4(movedW, 1.0);
+  return filteredShadow(map, vec3(0.5 * clip.xy / clip.w + 0.5, depthInMap(map, clip, movedW)));
 }

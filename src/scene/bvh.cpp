@@ -319,7 +319,7 @@ void Bvh::query(const Frustum& frustum, std::vector<std::uint32_t>& items) const
   }
 }
 
-float Bvh::firstEntered(vec3 origin, vec3 direction) const {
+float Bvh::firstSide(vec3 origin, vec3 direction) const {
   float nearest = std::numeric_limits<float>::infinity();
   if (nodes_.empty()) return nearest;
   std::array<std::uint32_t, kMaxDepth + 1> stack;
@@ -336,8 +336,8 @@ float Bvh::firstEntered(vec3 origin, vec3 direction) const {
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
       const RaySpan inside = spanInside(boxes_[i], origin, direction);
-      if (inside.first > 0.f && inside.first <= inside.last)
-        nearest = std::min(nearest, inside.first);
+      if (inside.first <= inside.last)
+        nearest = std::min(nearest, inside.first > 0.f ? inside.first : inside.last);
     }
   }
   return nearest;

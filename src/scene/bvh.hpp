@@ -25,9 +25,9 @@ class Bvh {
   // deterministic order.
   void query(const Frustum& frustum, std::vector<std::uint32_t>& items) const;
 
-  // The nearest box that a ray enters from outside, as the distance in lengths of `direction`;
-  // infinity if there is none. Boxes around the origin do not count.
-  float firstEntered(vec3 origin, vec3 direction) const;
+  // The nearest place where a ray enters or leaves one of the boxes, as the distance in lengths of
+  // `direction`; infinity if there is none.
+  float firstSide(vec3 origin, vec3 direction) const;
 
   struct Node {
     Aabb box;

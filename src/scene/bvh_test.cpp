@@ -49,7 +49,7 @@ std::vector<std::uint32_t> sortedQuery(const Bvh& bvh, const Frustum& frustum) {
   return items;
 }
 
-TEST(Bvh, FindsTheFirstBoxThatARayEnters) {
+TEST(Bvh, FindsTheFirstSideOfABoxOnARay) {
   const auto boxes = randomBoxes(500, 11, 50.f, 8.f);
   Bvh bvh;
   bvh.build(boxes);
@@ -64,14 +64,15 @@ TEST(Bvh, FindsTheFirstBoxThatARayEnters) {
     for (const Aabb& box : boxes) {
       const RaySpan span = spanInside(box, origin, direction);
       around += span.first == 0.f && span.last >= 0.f;
-      if (span.first > 0.f && span.first <= span.last) expected = std::min(expected, span.first);
+      if (span.first <= span.last)
+        expected = std::min(expected, span.first > 0.f ? span.first : span.last);
     }
     found += std::isfinite(expected);
-    EXPECT_EQ(bvh.firstEntered(origin, direction), expected);
+    EXPECT_EQ(bvh.firstSide(origin, direction), expected);
   }
   EXPECT_GT(found, 50);
   EXPECT_GE(around, 100);
-  EXPECT_TRUE(std::isinf(Bvh().firstEntered(vec3(0), vec3(1, 0, 0))));
+  EXPECT_TRUE(std::isinf(Bvh().firstSide(vec3(0), vec3(1, 0, 0))));
 }
 
 TEST(Bvh, FindsExactlyWhatTestingEveryBoxFinds) {

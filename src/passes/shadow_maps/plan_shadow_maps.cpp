@@ -11,6 +11,7 @@ namespace {
 // A spot light that opens wider than this on each side gets the six faces of a point light: one
 // picture would have few texels in its middle.
 constexpr float kWidestSpot = 1.2f;       // rad
+constexpr float kCubeShare = 0.57735f;    // half a side of the cube in a sphere of radius 1
 constexpr float kFaceCorner = 0.955317f;  // rad, between a face's axis and its corners
 
 // How much of the way from equal to proportional cascades: Zhang, Sun, Xu and Lun,
@@ -21,26 +22,45 @@ float marginOf(int size) {
   return std::min(static_cast<float>(render::kShadowMargin) / static_cast<float>(size), 0.1f);
 }
 
-// What a lamp gives to the eye's surroundings: those that give most have shadows.
-float importanceOf(const scene::PlacedLight& light, vec3 eyeW) {
-  const float strength = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
-  return strength * scene::attenuationAt(light, 0.5f * glm::distance(light.positionW, eyeW));
+float strengthOf(const scene::PlacedLight& light) {
+  return std::max({light.intensity.x, light.intensity.y, light.intensity.z});
 }
 
-// The lamps that may have maps, most important first.
+// Strength times the share of the view that the lamp's reach may fill.
+float importanceOf(const scene::PlacedLight& light, vec3 eyeW) {
+  if (std::isinf(light.reach)) return strengthOf(light);
+  const float size = light.reach / (light.reach + glm::distance(light.positionW, eyeW));
+  return strengthOf(light) * size * size;
+}
+
+bool mayBeInSight(const scene::PlacedLight& light, std::span<const scene::View> views,
+                  const Aabb& boxW) {
+  if (strengthOf(light) <= 0.f || light.reach <= 0.f) return false;
+  if (std::isinf(light.reach)) return true;
+  const Aabb reached{light.positionW - light.reach, light.positionW + light.reach};
+  const auto overlap =
+      glm::lessThanEqual(reached.min, boxW.max) && glm::lessThanEqual(boxW.min, reached.max);
+  return glm::all(overlap) && std::ranges::any_of(views, [&](const scene::View& view) {
+           return intersects(view.frustumW(), reached);
+         });
+}
+
+// The lamps that light something in sight, most important first.
 std::vector<std::uint32_t> lampsOf(std::span<const scene::PlacedLight> lights,
-                                   const render::Viewer& viewer) {
+                                   std::span<const scene::View> views, const Aabb& boxW) {
+  const vec3 eyeW = render::viewerOf(views).positionW;
   std::vector<std::tuple<float, std::uint32_t>> keyed;
   for (std::uint32_t i = 0; i < lights.size(); ++i)
-    if (const scene::PlacedLight& light = lights[i]; light.kind != scene::LightKind::Directional)
-      keyed.emplace_back(-importanceOf(light, viewer.positionW), i);
+    if (lights[i].kind != scene::LightKind::Directional && mayBeInSight(lights[i], views, boxW))
+      keyed.emplace_back(-importanceOf(lights[i], eyeW), i);
   std::ranges::sort(keyed);
   std::vector<std::uint32_t> lamps;
   for (const auto& [key, index] : keyed) lamps.push_back(index);
   return lamps;
 }
 
-// A point light is a sphere: what lies inside, its bulb for instance, throws no shadow.
+// A point light is a sphere: what lies in the cube inside it, its bulb for instance, throws no
+// shadow.
 std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   const float angle = std::acos(std::clamp(light.cosOuter, -1.f, 1.f));
   if (light.kind == scene::LightKind::Spot && angle <= kWidestSpot)
@@ -54,10 +74,11 @@ std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
                           vec3(0, 0, 1), vec3(0, 0, -1)})
     if (std::acos(std::clamp(glm::dot(axis, light.directionW), -1.f, 1.f)) <= darkFrom)
-      faces.push_back({.positionW = light.positionW,
-                       .axisW = axis,
-                       .reach = light.reach,
-                       .near = light.kind == scene::LightKind::Point ? light.radius : 0.f});
+      faces.push_back(
+          {.positionW = light.positionW,
+           .axisW = axis,
+           .reach = light.reach,
+           .near = light.kind == scene::LightKind::Point ? kCubeShare * light.radius : 0.f});
   return faces;
 }
 
@@ -75,6 +96,7 @@ std::vector<float> splitsOf(const render::Viewer& viewer, const std::vector<vec3
     const float distance = glm::dot(viewer.forwardW, point - viewer.positionW);
     near = std::min(near, distance), far = std::max(far, distance);
   }
+  far = std::max(far, 1e-6f);
   const float first = std::max(near, 0.005f * far);  // of the proportional ones
   std::vector<float> splits{near};
   for (int i = 1; i < count; ++i) {
@@ -91,18 +113,22 @@ class Planner {
  public:
   Planner(const ShadowMaps::Params& params, std::span<const scene::PlacedLight> lights,
           std::span<const scene::View> views, const scene::Bvh& bvh)
-      : params_(params), lights_(lights), views_(views), bvh_(bvh), boxW_(bvh.nodes()[0].box) {
+      : params_(params),
+        lights_(lights),
+        views_(views),
+        boxW_(bvh.nodes()[0].box),
+        body_(render::visibleBody(views, boxW_)),
+        samples_(render::visibleSamples(views, bvh)) {
     plan_.ofLight.resize(lights.size());
   }
 
   void directional(std::uint32_t light) {
-    const std::vector<vec3> body = render::visibleBody(views_, boxW_);
-    if (body.empty()) return;
+    if (body_.empty() || strengthOf(lights_[light]) <= 0.f) return;
     if (params_.method != ShadowMaps::Method::Cascades) {
-      addDirectional(light, body, warpOf(lights_[light].directionW, body));
+      addDirectional(light, body_, warpOf(lights_[light].directionW));
       return;
     }
-    const std::vector<float> splits = splitsOf(viewer_, body, params_.cascades);
+    const std::vector<float> splits = splitsOf(viewer_, body_, params_.cascades);
     for (std::size_t i = 0; i + 1 < splits.size(); ++i) {
       const auto slice = sliceOf(viewer_, splits[i], splits[i + 1]);
       const std::vector<vec3> part = render::visibleBody(views_, boxW_, slice);
@@ -111,27 +137,24 @@ class Planner {
   }
 
   void lamp(std::uint32_t light) {
-    const bool mayHaveMaps = plan_.lampsWithMaps < params_.localLights;
-    bool inSight = false;
-    for (const render::LightPyramid& pyramid : pyramidsOf(lights_[light])) {
-      const auto projection =
-          render::localProjection(pyramid, views_, boxW_, marginOf(params_.localSize));
-      inSight = inSight || projection;
-      if (projection && mayHaveMaps)
-        add(light, {.projection = *projection, .local = true, .layer = localLayers_++});
+    if (plan_.lampsWithMaps == params_.localLights) {
+      ++plan_.lampsLeftOut;
+      return;
     }
-    plan_.lampsInSight += inSight;
-    plan_.lampsWithMaps += inSight && mayHaveMaps;
+    for (const render::LightPyramid& pyramid : pyramidsOf(lights_[light]))
+      if (const auto projection =
+              render::localProjection(pyramid, views_, boxW_, marginOf(params_.localSize)))
+        add(light, {.projection = *projection, .local = true, .layer = localLayers_++});
+    plan_.lampsWithMaps += plan_.ofLight[light].count > 0;
   }
 
-  const render::Viewer& viewer() const { return viewer_; }
   ShadowMapPlan take() { return std::move(plan_); }
 
  private:
-  float warpOf(vec3 directionW, const std::vector<vec3>& body) const {
+  float warpOf(vec3 directionW) const {
     if (params_.method == ShadowMaps::Method::Uniform) return 0.f;
     if (params_.warp == ShadowMaps::Warp::Automatic)
-      return render::automaticWarp(directionW, body, render::visibleSamples(views_, bvh_), viewer_);
+      return render::automaticWarp(directionW, body_, samples_, viewer_);
     return params_.warpStrength * glm::length(glm::cross(directionW, viewer_.forwardW));
   }
 
@@ -151,8 +174,8 @@ class Planner {
   const ShadowMaps::Params& params_;
   std::span<const scene::PlacedLight> lights_;
   std::span<const scene::View> views_;
-  const scene::Bvh& bvh_;
   const Aabb boxW_;
+  const std::vector<vec3> body_, samples_;
   const render::Viewer viewer_ = render::viewerOf(views_);
   int directionalLayers_ = 0, localLayers_ = 0;
   ShadowMapPlan plan_;
@@ -168,7 +191,7 @@ ShadowMapPlan planShadowMaps(const ShadowMaps::Params& params,
   Planner planner(params, lights, views, bvh);
   for (std::uint32_t i = 0; i < lights.size(); ++i)
     if (lights[i].kind == scene::LightKind::Directional) planner.directional(i);
-  for (const std::uint32_t lamp : lampsOf(lights, planner.viewer())) planner.lamp(lamp);
+  for (const std::uint32_t lamp : lampsOf(lights, views, bvh.nodes()[0].box)) planner.lamp(lamp);
   return planner.take();
 }
 

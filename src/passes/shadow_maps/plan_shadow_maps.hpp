@@ -8,7 +8,7 @@ namespace lucerna::passes {
 struct ShadowMapPlan {
   std::vector<render::ShadowMaps::Map> maps{};
   std::vector<render::ShadowMaps::Range> ofLight{};  // one a light
-  int lampsInSight = 0, lampsWithMaps = 0;
+  int lampsWithMaps = 0, lampsLeftOut = 0;           // in sight; left out by the budget
 };
 
 // bvh: over the boxes of what throws and what catches shadows.

@@ -25,7 +25,9 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Whether lispsm chooses its strength by the view or takes warpStrength.");
   d.param("warpStrength", &Params::warpStrength)
       .range(0, 1000)
-      .help("0: a uniform map; s: what is farthest has texels 1 + s times as wide as the nearest.");
+      .help(
+          "0: a uniform map; s: across the light, what is farthest has texels 1 + s times as wide "
+          "as the nearest, and the square of that as long.");
   d.param("cascades", &Params::cascades).range(1, 8).help("Maps of a directional light.");
   d.param("localSize", &Params::localSize)
       .range(16, 8192)
@@ -42,7 +44,7 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
 
 const gpu::Program& ShadowMaps::programOf(const render::ShadowProjection& projection,
                                           const scene::Material& material) {
-  if (projection.shear == 0.f) return programs_.of(material);
+  if (!projection.warped) return programs_.of(material);
   const gpu::Program& program = warpedPrograms_.of(material);
   program.set("depthPlaneW", projection.depthPlaneW);
   return program;
@@ -58,15 +60,15 @@ void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::Sha
                          .orthographic = !map.local};
   render::updateView(device, drawing.view, view, uvec2(texture.width(), texture.height()));
 
-  visible_.clear();
-  gpuScene.bvh.query(view.frustumW(), visible_);
-  std::erase_if(visible_, [&](std::uint32_t index) {
+  std::vector<std::uint32_t>& casters = drawing.list.objects;
+  casters.clear();
+  gpuScene.bvh.query(view.frustumW(), casters);
+  std::erase_if(casters, [&](std::uint32_t index) {
     const scene::Object& object = gpuScene.scene->objects[index];
     return gpuScene.scene->materials[object.material].alphaMode == scene::AlphaMode::Blend ||
            gpuScene.meshes[object.mesh].topology != gpu::Topology::Triangles;
   });
-  render::sortForState(gpuScene, visible_);
-  drawing.list.objects = visible_;
+  render::sortForState(gpuScene, casters);
   finishList(device, gpuScene, drawing.list);
 
   gpu::Rendering rendering = device.render(
@@ -78,17 +80,18 @@ void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::Sha
            [&](const scene::Material& material) { return &programOf(map.projection, material); });
 }
 
-void ShadowMaps::warnOfLamps(int leftOut, int inSight, int allowed) {
+void ShadowMaps::warnOfLamps(int leftOut, int allowed) {
   if (leftOut > mostLeftOut_)
-    log::warning("ShadowMaps: {} of {} lamps in sight throw no shadow; localLights allows {}",
-                 leftOut, inSight, allowed);
+    log::warning(
+        "ShadowMaps: beside {} lamps, {} in sight throw no shadow; localLights allows more",
+        allowed, leftOut);
   mostLeftOut_ = std::max(mostLeftOut_, leftOut);
 }
 
 void ShadowMaps::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   ShadowMapPlan plan =
       planShadowMaps(params, ports.lights->lights, ports.views->views, ports.scene->bvh);
-  warnOfLamps(plan.lampsInSight - plan.lampsWithMaps, plan.lampsInSight, params.localLights);
+  warnOfLamps(plan.lampsLeftOut, params.localLights);
   render::ShadowMaps& out = *ports.shadowMaps;
   out.maps = std::move(plan.maps);
   out.ofLight = std::move(plan.ofLight);

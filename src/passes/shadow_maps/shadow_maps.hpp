@@ -46,7 +46,7 @@ class ShadowMaps {
     render::DrawList list;
   };
 
-  void warnOfLamps(int leftOut, int inSight, int allowed);
+  void warnOfLamps(int leftOut, int allowed);
   void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
             Drawing& drawing);
 
@@ -54,9 +54,8 @@ class ShadowMaps {
                                 const scene::Material& material);
 
   render::ObjectPrograms programs_, warpedPrograms_;
-  std::vector<Drawing> drawings_;       // kept for their buffers
-  std::vector<std::uint32_t> visible_;  // kept for its memory
-  int mostLeftOut_ = 0;                 // lamps without a map, so far
+  std::vector<Drawing> drawings_;  // kept for their buffers
+  int mostLeftOut_ = 0;            // lamps without a map, so far
 };
 
 }  // namespace lucerna::passes

@@ -25,7 +25,7 @@ void ShadowedLighting::describe(graph::PassInfo<Params, Ports>& d) {
           "How far a point is moved off its surface before it is compared, as a factor on what "
           "keeps "
           "a plane from shadowing itself: a texel there, times the filter's radius and the slope.");
-  render::readGBuffer(d);
+  render::readGBuffer(d, 1);
   d.read("scene", &Ports::scene).help("Whether there are custom shaders, whose pixels darken.");
   d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -59,6 +60,14 @@ void addCube(scene::Scene& scene, vec3 center, float side, std::uint32_t materia
                      glm::scale(glm::translate(mat4(1.f), center), vec3(side)));
 }
 
+// A normal map that leans by 40 degrees everywhere.
+scene::Texture leaningNormals() {
+  Image texel(1, 1, 4, ComponentType::U8);
+  const std::array<std::uint8_t, 4> values = {209, 128, 225, 255};
+  std::ranges::copy(values, texel.pixel<std::uint8_t>(0, 0));
+  return {.name = "leaning", .image = std::make_shared<const Image>(texel)};
+}
+
 // The pixel in which the camera of emptyScene() sees a point.
 ivec2 pixelOf(const scene::Scene& scene, vec3 pointW) {
   const vec4 clip = viewOf(scene, scene.cameras[0], 1.f).clipFromWorld() * vec4(pointW, 1.f);
@@ -78,29 +87,54 @@ INSTANTIATE_TEST_SUITE_P(Of, Shadows, ::testing::ValuesIn(cases()),
                          [](const auto& parameter) { return parameter.param.name; });
 
 // Neither acne nor anything else: a wall that nothing stands before is lit as Lighting lights it,
-// at every angle of the light.
+// at every angle of the light, whatever its normal map says.
 TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
-  for (const float degrees : {0.f, 20.f, 45.f, 70.f, 85.f, 89.f}) {
-    scene::Scene scene = testing::emptyScene();
-    testing::addWall(scene, kWall);
-    const float angle = degrees * kPi / 180.f;
-    const vec3 target(0, 0, -kWall);
-    addLamp(scene, GetParam().kind,
-            target + 4.f * vec3(0.8f * std::sin(angle), 0.6f * std::sin(angle), std::cos(angle)),
-            target);
-    updateTransforms(scene);
-    const Image plain = testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "Lighting"}),
-                                         kSize, "Lighting.color");
-    for (const char* filter : {"nearest", "hardware", "3x3", "9x9"}) {
-      graph::Pipeline pipeline = shadowRows(GetParam().method);
-      pipeline.passes.back().params["filter"] = filter;
-      const Image found = shadowed(scene, pipeline);
-      const Image a = testing::asFloatRgb(plain), b = testing::asFloatRgb(found);
-      float worst = 0.f;
-      for (std::size_t i = 0; i < a.as<float>().size(); ++i)
-        worst = std::max(worst, std::abs(a.as<float>()[i] - b.as<float>()[i]));
-      EXPECT_LE(worst, 1.f / 255.f) << filter << ", light at " << degrees << " degrees";
+  for (const bool leaning : {false, true})
+    for (const float degrees : {0.f, 0.007f, 20.f, 45.f, 70.f, 85.f, 89.f}) {
+      scene::Scene scene = testing::emptyScene();
+      if (leaning) scene.textures.push_back(leaningNormals());
+      scene::Material& material = testing::addWall(scene, kWall);
+      if (leaning) material.normalTexture.texture = 0;
+      const float angle = degrees * kPi / 180.f;
+      const vec3 target(0, 0, -kWall);
+      const vec3 toLight(0.8f * std::sin(angle), 0.6f * std::sin(angle), std::cos(angle));
+      addLamp(scene, GetParam().kind, target + 4.f * toLight, target);
+      updateTransforms(scene);
+      const Image plain = testing::asFloatRgb(testing::valueOf(
+          scene, testing::rows({"Cull", "GBuffer", "Lighting"}), kSize, "Lighting.color"));
+      for (const char* filter : {"nearest", "hardware", "3x3", "9x9"}) {
+        graph::Pipeline pipeline = shadowRows(GetParam().method);
+        pipeline.passes.back().params["filter"] = filter;
+        const Image found = testing::asFloatRgb(shadowed(scene, pipeline));
+        float worst = 0.f;
+        for (std::size_t i = 0; i < plain.as<float>().size(); ++i)
+          worst = std::max(worst, std::abs(plain.as<float>()[i] - found.as<float>()[i]));
+        EXPECT_LE(worst, 1.f / 255.f) << filter << ", light at " << degrees << " degrees"
+                                      << (leaning ? ", leaning normals" : "");
+      }
     }
+}
+
+// Where maps of one light meet, each looks things up where it has been made for them.
+TEST_P(Shadows, NoLightLeaksWhereMapsMeet) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  const vec3 eye(0.1f, 0.2f, -4);
+  // Around the lamp, or between a sun and all that is seen.
+  if (GetParam().kind == scene::LightKind::Directional) {
+    addCube(scene, {0, 0, 50}, 40.f);
+    addLamp(scene, GetParam().kind, {0, 0.3f, 4}, {0, 0, -1});
+  } else {
+    addCube(scene, eye, 0.5f);
+    addLamp(scene, GetParam().kind, eye, {0.1f, 0.2f, -6});
+  }
+  updateTransforms(scene);
+  for (const char* filter : {"nearest", "hardware", "3x3", "5x5", "9x9"}) {
+    graph::Pipeline pipeline = shadowRows(GetParam().method);
+    pipeline.passes.back().params["filter"] = filter;
+    const Image found = testing::asFloatRgb(shadowed(scene, pipeline));
+    EXPECT_EQ(std::ranges::count_if(found.as<float>(), [](float v) { return v > 0.f; }), 0)
+        << filter;
   }
 }
 
