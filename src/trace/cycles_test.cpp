@@ -126,7 +126,7 @@ TEST(Cycles, AgreesAboutReflectance) {
 }
 
 TEST(Cycles, AgreesAboutLights) {
-  check("lights", 1024, 0.0016,
+  check("lights", 512, 0.0018,
         {kBrighter,
          {"a sphere 20 % larger", [](Fixture& f) { lightOf(f, "sphere").radius *= 1.2f; }},
          {"a disc 20 % larger", [](Fixture& f) { lightOf(f, "disc").radius *= 1.2f; }},
@@ -149,7 +149,7 @@ TEST(Cycles, AgreesAboutCameras) {
                      }};
   check("perspective", 256, 0.001, {kBrighter, narrower, duller});
   check("orthographic", 256, 0.0006, {kBrighter, narrower});
-  check("lens", 1024, 0.002,
+  check("lens", 512, 0.0027,
         {kBrighter,
          narrower,
          {"a lens 10 % larger", [](Fixture& f) { f.settings.lensRadius *= 1.1f; }},

@@ -25,6 +25,12 @@ struct MaterialLookup::Corners {
   T mean(const std::vector<T>& stream) const {
     return stream[index[0]] * weight.x + stream[index[1]] * weight.y + stream[index[2]] * weight.z;
   }
+  vec4 meanColor() const {
+    const auto& colors = mesh.colors;
+    return (vec4(colors[index[0]]) * weight.x + vec4(colors[index[1]]) * weight.y +
+            vec4(colors[index[2]]) * weight.z) /
+           255.f;
+  }
 };
 
 namespace {
@@ -132,25 +138,30 @@ vec4 MaterialLookup::baseColor(const Spot& spot, const Corners& corners, vec3 no
                                vec3 toEyeW) const {
   const Material& material = materialOf(spot.object);
   vec4 color = material.albedo;
-  if (const auto& colors = corners.mesh.colors; !colors.empty())
-    color *= (vec4(colors[corners.index[0]]) * corners.weight.x +
-              vec4(colors[corners.index[1]]) * corners.weight.y +
-              vec4(colors[corners.index[2]]) * corners.weight.z) /
-             255.f;
+  if (!corners.mesh.colors.empty()) color *= corners.meanColor();
   if (!material.albedoTexture.used()) return color;
   return combine(material, color, generated(material.albedoTexture, spot, corners, normalW, toEyeW),
                  hasAlpha(scene_.textures[material.albedoTexture.texture]));
 }
 
+// As baseColor(), without the colour: alpha tests ask for it at every surface that a ray crosses.
 float MaterialLookup::opacity(const Spot& spot) const {
   const Corners corners = cornersOf(spot);
-  const Coordinates coordinates = materialOf(spot.object).albedoTexture.coordinates;
-  if (coordinates != Coordinates::SphereMap && coordinates != Coordinates::Reflection)
-    return baseColor(spot, corners, vec3(0.f), vec3(0.f)).w;
-  const mat4& worldFromObject = scene_.nodes[scene_.objects[spot.object].node].worldFromNode;
-  const vec3 positionW(worldFromObject * vec4(corners.mean(corners.mesh.positions), 1.f));
-  const SurfacePoint point = at(spot, positionW - eyeW_);
-  return baseColor(spot, corners, point.normalW, point.toEyeW).w;
+  const Material& material = materialOf(spot.object);
+  const TextureSlot& slot = material.albedoTexture;
+  if (slot.coordinates == Coordinates::SphereMap || slot.coordinates == Coordinates::Reflection) {
+    const mat4& worldFromObject = scene_.nodes[scene_.objects[spot.object].node].worldFromNode;
+    const vec3 positionW(worldFromObject * vec4(corners.mean(corners.mesh.positions), 1.f));
+    const SurfacePoint point = at(spot, positionW - eyeW_);
+    return baseColor(spot, corners, point.normalW, point.toEyeW).w;
+  }
+  float own = material.albedo.w;
+  if (!corners.mesh.colors.empty()) own *= corners.meanColor().w;
+  if (!slot.used() || material.combine == Combine::Decal) return own;
+  const scene::Texture& texture = scene_.textures[slot.texture];
+  if (!hasAlpha(texture)) return own;
+  const float alpha = alphaAt(texture, texCoords(slot, spot, corners));
+  return material.combine == Combine::Replace ? alpha : own * alpha;
 }
 
 // n' = t x + b y + n z, t made square to n, b = cross(n, t) times the handedness.

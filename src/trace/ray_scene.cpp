@@ -90,6 +90,17 @@ void transmittanceFilter(const RTCFilterFunctionNArguments* args) {
   }
 }
 
+// What all packets have in common.
+template <typename Packet>
+void prepare(Packet& packet) {
+  for (std::size_t i = 0; i < kPacket; ++i) {
+    packet.time[i] = 0.f;
+    packet.mask[i] = ~0u;
+    packet.id[i] = static_cast<unsigned>(i);
+    packet.flags[i] = 0;
+  }
+}
+
 // Lanes behind the end of the list take part in nothing.
 template <typename Packet>
 void setRays(Packet& packet, std::span<const Ray> rays, std::array<int, kPacket>& valid) {
@@ -103,11 +114,7 @@ void setRays(Packet& packet, std::span<const Ray> rays, std::array<int, kPacket>
     packet.dir_x[i] = ray.directionW.x;
     packet.dir_y[i] = ray.directionW.y;
     packet.dir_z[i] = ray.directionW.z;
-    packet.time[i] = 0.f;
     packet.tfar[i] = ray.far;
-    packet.mask[i] = ~0u;
-    packet.id[i] = static_cast<unsigned>(i);
-    packet.flags[i] = 0;
   }
 }
 
@@ -216,6 +223,7 @@ void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits,
   if (!passed.empty()) context.embree.filter = passedFilter;
   alignas(64) RTCRayHit16 packet;
   alignas(64) std::array<int, kPacket> valid;
+  prepare(packet.ray);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     setRays(packet.ray, rays.subspan(first, count), valid);
@@ -238,6 +246,7 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<vec3> shares) 
   Context context(impl_->lookup);
   alignas(64) RTCRay16 packet;
   alignas(64) std::array<int, kPacket> valid;
+  prepare(packet);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     setRays(packet, rays.subspan(first, count), valid);

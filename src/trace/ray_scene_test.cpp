@@ -110,6 +110,39 @@ TEST(RayScene, HolesOfAlphaTestLetThrough) {
   EXPECT_EQ(transmittance(rays, both)[1], vec3(1.f));
 }
 
+// What alpha tests go by is the opacity that shading works out with everything else.
+TEST(RayScene, OpacityIsThatOfTheSurface) {
+  scene::Scene scene = testing::emptyScene();
+  Random random(3);
+  for (const int channels : {4, 3, 2, 1}) {
+    auto image = std::make_shared<Image>(3, 2, channels, ComponentType::U8);
+    for (std::uint8_t& value : image->as<std::uint8_t>())
+      value = static_cast<std::uint8_t>(random.uniform(0, 255));
+    scene::Texture& texture = scene.textures.emplace_back();
+    texture.image = image;
+    texture.wrapT = scene::Wrap::MirroredRepeat;
+  }
+  for (const auto combine : {scene::Combine::Modulate, scene::Combine::Decal, scene::Combine::Blend,
+                             scene::Combine::Add, scene::Combine::Replace})
+    for (std::uint32_t texture = 0; texture < 5; ++texture) {
+      scene::Material& material = addMaterial(scene);
+      material.alphaMode = scene::AlphaMode::Blend;
+      material.albedo.w = 0.7f;
+      material.combine = combine;
+      material.albedoTexture = {.texture = texture < 4 ? texture : scene::kNoTexture,
+                                .offset = {0.3f, -0.2f},
+                                .scale = vec2(2.5f)};
+      addSquare(scene, {0, 0, -2}, {1, 0, 0}, {0, 1, 0});
+      scene.meshes.back().colors = {{255, 0, 0, 40}, {0, 0, 0, 80}, {0, 0, 0, 160}, {0, 0, 0, 255}};
+    }
+  const MaterialLookup lookup(scene, mat4(1.f));
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object)
+    for (const vec2 at : {vec2(0.1f, 0.2f), vec2(0.6f, 0.3f), vec2(0.05f, 0.9f)}) {
+      const Spot spot{.object = object, .triangle = 1, .barycentric = at};
+      EXPECT_EQ(lookup.opacity(spot), lookup.at(spot, {0, 0, -1}).opacity) << object;
+    }
+}
+
 // The product of what panes let through, whatever their order; nothing behind a wall.
 TEST(RayScene, PanesMultiply) {
   scene::Scene scene = testing::emptyScene();

@@ -34,21 +34,33 @@ float linear(const Image& image, std::size_t index) {
   return image.type() == ComponentType::U16 ? linearFromSrgb(value) : value;
 }
 
+std::size_t firstOf(const Image& image, ivec2 at) {
+  return (static_cast<std::size_t>(at.y) * image.width() + at.x) *
+         static_cast<std::size_t>(image.channels());
+}
+
 // 1 and 2 channels are grey and grey with alpha (image/image.hpp).
+bool hasAlpha(const Image& image) {
+  return image.channels() == 2 || image.channels() == 4;
+}
+
+float alphaOf(const Image& image, ivec2 at) {
+  return stored(image, firstOf(image, at) + static_cast<std::size_t>(image.channels()) - 1);
+}
+
 vec4 texel(const Image& image, ivec2 at, bool color) {
-  const int channels = image.channels();
-  const std::size_t first =
-      (static_cast<std::size_t>(at.y) * image.width() + at.x) * static_cast<std::size_t>(channels);
+  const std::size_t first = firstOf(image, at);
   vec4 value(0.f, 0.f, 0.f, 1.f);
   for (int c = 0; c < 3; ++c) {
-    const std::size_t index = first + (channels >= 3 ? static_cast<std::size_t>(c) : 0);
+    const std::size_t index = first + (image.channels() >= 3 ? static_cast<std::size_t>(c) : 0);
     value[c] = color ? linear(image, index) : stored(image, index);
   }
-  if (channels == 2 || channels == 4) value.w = stored(image, first + channels - 1);
+  if (hasAlpha(image)) value.w = alphaOf(image, at);
   return value;
 }
 
 int wrapped(int i, int size, scene::Wrap wrap) {
+  if (i >= 0 && i < size) return i;
   if (wrap == scene::Wrap::ClampToEdge) return std::clamp(i, 0, size - 1);
   const int period = wrap == scene::Wrap::Repeat ? size : 2 * size;
   const int within = ((i % period) + period) % period;
@@ -62,29 +74,43 @@ vec2 held(vec2 uv) {
   return uv;
 }
 
-vec4 sample(const Image& image, vec2 uv, scene::Wrap wrapS, scene::Wrap wrapT, bool nearest,
-            bool color) {
+// read: of a texel of the picture.
+template <typename Read>
+auto sample(const Image& image, vec2 uv, scene::Wrap wrapS, scene::Wrap wrapT, bool nearest,
+            Read read) {
   const ivec2 size(image.width(), image.height());
-  const auto at = [&](ivec2 p) {
-    return texel(image, {wrapped(p.x, size.x, wrapS), wrapped(p.y, size.y, wrapT)}, color);
-  };
   const vec2 place = held(uv) * vec2(size);
-  if (nearest) return at(ivec2(glm::floor(place)));
-  const vec2 corner = glm::floor(place - 0.5f);
-  const vec2 share = place - 0.5f - corner;
+  const vec2 corner = glm::floor(nearest ? place : place - 0.5f);
   const ivec2 p(corner);
-  return glm::mix(glm::mix(at(p), at(p + ivec2(1, 0)), share.x),
-                  glm::mix(at(p + ivec2(0, 1)), at(p + ivec2(1, 1)), share.x), share.y);
+  const int left = wrapped(p.x, size.x, wrapS), top = wrapped(p.y, size.y, wrapT);
+  if (nearest) return read(ivec2(left, top));
+  const int right = wrapped(p.x + 1, size.x, wrapS), bottom = wrapped(p.y + 1, size.y, wrapT);
+  const vec2 share = place - 0.5f - corner;
+  return glm::mix(glm::mix(read({left, top}), read({right, top}), share.x),
+                  glm::mix(read({left, bottom}), read({right, bottom}), share.x), share.y);
+}
+
+vec4 sampleTexels(const Image& image, vec2 uv, scene::Wrap wrapS, scene::Wrap wrapT, bool nearest,
+                  bool color) {
+  return sample(image, uv, wrapS, wrapT, nearest,
+                [&](ivec2 at) { return texel(image, at, color); });
 }
 
 }  // namespace
 
 vec4 colorAt(const scene::Texture& texture, vec2 uv) {
-  return sample(*texture.image, uv, texture.wrapS, texture.wrapT, texture.nearest, true);
+  return sampleTexels(*texture.image, uv, texture.wrapS, texture.wrapT, texture.nearest, true);
 }
 
 vec4 dataAt(const scene::Texture& texture, vec2 uv) {
-  return sample(*texture.image, uv, texture.wrapS, texture.wrapT, texture.nearest, false);
+  return sampleTexels(*texture.image, uv, texture.wrapS, texture.wrapT, texture.nearest, false);
+}
+
+float alphaAt(const scene::Texture& texture, vec2 uv) {
+  const Image& image = *texture.image;
+  if (!hasAlpha(image)) return 1.f;
+  return sample(image, uv, texture.wrapS, texture.wrapT, texture.nearest,
+                [&](ivec2 at) { return alphaOf(image, at); });
 }
 
 // Each face is what a camera at the origin sees along its axis: right and up of that camera.
@@ -104,9 +130,9 @@ vec4 cubeColorAt(const scene::Texture& texture, vec3 d) {
   const Face& face = faces[static_cast<std::size_t>(index)];
   const float ahead = std::max(glm::dot(d, face.forward), 1e-30f);
   const vec2 ndc(glm::dot(d, face.right) / ahead, glm::dot(d, face.up) / ahead);
-  return sample(*texture.faces[static_cast<std::size_t>(index)],
-                vec2(0.5f + 0.5f * ndc.x, 0.5f - 0.5f * ndc.y), scene::Wrap::ClampToEdge,
-                scene::Wrap::ClampToEdge, texture.nearest, true);
+  return sampleTexels(*texture.faces[static_cast<std::size_t>(index)],
+                      vec2(0.5f + 0.5f * ndc.x, 0.5f - 0.5f * ndc.y), scene::Wrap::ClampToEdge,
+                      scene::Wrap::ClampToEdge, texture.nearest, true);
 }
 
 }  // namespace lucerna::trace

@@ -9,6 +9,8 @@ namespace lucerna::trace {
 vec4 colorAt(const scene::Texture& texture, vec2 uv);
 // As stored: normal maps, roughness.
 vec4 dataAt(const scene::Texture& texture, vec2 uv);
+// The last component of either, for less; 1 where the picture has no alpha channel.
+float alphaAt(const scene::Texture& texture, vec2 uv);
 // Linear colour that a cube map has in a direction (scene::Texture::faces).
 vec4 cubeColorAt(const scene::Texture& texture, vec3 directionW);
 
