@@ -13,6 +13,7 @@
 namespace lucerna::cli {
 namespace {
 
+using app::bench::Results;
 using app::bench::Suite;
 
 const std::string kAll = "all";
@@ -59,26 +60,50 @@ Status checkOutput(const std::string& folder) {
                noFolder.message());
 }
 
+bool nothingMeasured(const std::vector<Results>& results) {
+  return std::ranges::all_of(results, [](const Results& r) { return r.measurements.empty(); });
+}
+
+std::optional<ErrorKind> firstFailure(const std::vector<Results>& results) {
+  for (const Results& r : results)
+    if (r.failed) return r.failed;
+  return std::nullopt;
+}
+
+int exitCode(const std::vector<Results>& results) {
+  if (results.back().cancelled) {
+    log::error("cancelled; the tables hold the scenes measured so far");
+    return static_cast<int>(ErrorKind::Cancelled);
+  }
+  const auto failure = firstFailure(results);
+  if (!failure) return 0;
+  return static_cast<int>(nothingMeasured(results) ? *failure : ErrorKind::Failed);
+}
+
 Result<int> bench(const Options& options, bool json) {
   if (options.suite.empty()) return list(json);
   LUCERNA_TRY(suites, chosen(options.suite));
   LUCERNA_TRY_VOID(checkScenes(options.bench));
   LUCERNA_TRY_VOID(checkOutput(options.output));
-  std::vector<app::bench::Results> results;
+  std::vector<Results> results;
+  std::vector<std::string> files;
   for (const Suite& suite : suites) {
-    LUCERNA_TRY(measured, run(suite, options.bench));
-    results.push_back(std::move(measured));
-    if (results.back().cancelled) break;
+    results.push_back(run(suite, options.bench));
+    const bool cancelled = results.back().cancelled;
+    if (!cancelled && nothingMeasured(results) && firstFailure(results)) continue;
+    LUCERNA_TRY(written, writeResults(options.output, options.suite, results));
+    files = std::move(written);
+    if (cancelled) break;
   }
-  LUCERNA_TRY(files, writeResults(options.output, options.suite, results));
-  const bool cancelled = results.back().cancelled;
+  const int code = exitCode(results);
+  if (files.empty()) return code;
   if (json)
-    printJson({{"files", files}, {"cancelled", cancelled}});
+    printJson({{"files", files},
+               {"cancelled", results.back().cancelled},
+               {"failed", firstFailure(results).has_value()}});
   else
     log::info("wrote {}", join(files));
-  if (!cancelled) return 0;
-  log::error("cancelled; the tables hold the scenes measured so far");
-  return static_cast<int>(ErrorKind::Cancelled);
+  return code;
 }
 
 }  // namespace

@@ -22,8 +22,7 @@ Chain chainOf(const std::string& name) {
 Status measure(Run& run) {
   for (const uvec2 size : run.extent.sizes)
     for (const std::string& name : {kForward, kDeferred})
-      LUCERNA_TRY_VOID(
-          run.add({sizeName(size), name, run.scene}, {.chain = chainOf(name), .size = size}));
+      run.add({sizeName(size), name, run.scene}, {.chain = chainOf(name), .size = size});
   const CameraPath path = pathThrough(run.cameras);
   const int frames = kFramesPerCamera * (run.extent.cameras - 1) + 1;
   const Run::Turns turns{.take = [&](const Name& name, const Sample& sample) {
@@ -33,7 +32,8 @@ Status measure(Run& run) {
     m.count("primitives", static_cast<double>(sample.counters.primitives));
   }};
   for (int frame = 0; frame < frames; ++frame) {
-    run.stage.look(path.at(static_cast<double>(frame) / kFramesPerCamera));
+    const CameraPose pose = path.at(static_cast<double>(frame) / kFramesPerCamera);
+    LUCERNA_TRY_VOID(run.stage.look(pose));
     LUCERNA_TRY_VOID(run.takeTurns(turns, 1.0 / frames));
   }
   return {};

@@ -11,32 +11,29 @@ namespace {
 // infinitely far is then blurred over a fiftieth of the picture's height.
 constexpr float kAoRadius = 0.1f, kLensRadius = 0.01f;
 
-Row row(const char* pass, std::vector<std::string> settings = {}) {
-  return {.pass = pass, .settings = std::move(settings)};
+Row row(const char* pass, std::vector<std::string> settings = {},
+        std::vector<Length> lengths = {}) {
+  return {.pass = pass, .settings = std::move(settings), .lengths = std::move(lengths)};
 }
 
+const std::vector<Length> kAo{{"radius", kAoRadius}},
+    kLens{{"lensRadius", kLensRadius}, {"focusDistance", 1.f}};
+
 // All passes of system A, with the thesis' own methods where there are several.
-Chain thesisChain(float sight) {
-  return {
-      {row("Cull"), row("GBuffer"),
-       row("ScreenSpaceAo", {"method=hemisphere", "blur=box", "samples=30",
-                             fmt::format("radius={}", kAoRadius * sight)}),
-       row("CustomShaders"), row("ShadowMaps", {"method=lispsm", "size=2048"}),
-       row("ShadowedLighting"), row("Background"), row("Mirrors"), row("Transparency"),
-       row("GeometrySamples"), row("Sraa"),
-       row("DepthOfField", {"method=separable", fmt::format("lensRadius={}", kLensRadius * sight),
-                            fmt::format("focusDistance={}", sight)}),
-       row("ToneMap")}};
+Chain thesisChain() {
+  return {{row("Cull"), row("GBuffer"),
+           row("ScreenSpaceAo", {"method=hemisphere", "blur=box", "samples=30"}, kAo),
+           row("CustomShaders"), row("ShadowMaps", {"method=lispsm", "size=2048"}),
+           row("ShadowedLighting"), row("Background"), row("Mirrors"), row("Transparency"),
+           row("GeometrySamples"), row("Sraa"), row("DepthOfField", {"method=separable"}, kLens),
+           row("ToneMap")}};
 }
 
 // What can stand in their place.
-Chain otherChain(float sight) {
-  return {{row("Cull"), row("GBuffer"),
-           row("ScreenSpaceAo", {"method=horizon", fmt::format("radius={}", kAoRadius * sight)}),
+Chain otherChain() {
+  return {{row("Cull"), row("GBuffer"), row("ScreenSpaceAo", {"method=horizon"}, kAo),
            row("Lighting"), row("CustomShaders"), row("Background"), row("Transparency"),
-           row("DepthOfField", {"method=gather", fmt::format("lensRadius={}", kLensRadius * sight),
-                                fmt::format("focusDistance={}", sight)}),
-           row("ToneMap"), row("Fxaa")}};
+           row("DepthOfField", {"method=gather"}, kLens), row("ToneMap"), row("Fxaa")}};
 }
 
 const std::string kFrame = "whole frame";  // of the thesis' chain
@@ -59,7 +56,6 @@ void add(Measurement& m, const Cost& cost) {
   m.add(cost.gpuMs, cost.cpuMs);
   m.count("draws", static_cast<double>(cost.counters.draws));
   m.count("primitives", static_cast<double>(cost.counters.primitives));
-  m.count("texture_bytes", static_cast<double>(cost.textureBytes));
 }
 
 // Variants are named by size and chain; measurements by size, pass and scene.
@@ -67,11 +63,9 @@ Status measure(Run& run) {
   const std::string thesis = "thesis", other = "other";
   for (const uvec2 size : run.extent.sizes)
     for (const std::string& chain : {thesis, other})
-      LUCERNA_TRY_VOID(
-          run.add({sizeName(size), chain},
-                  {.chain = chain == other ? otherChain(run.sight()) : thesisChain(run.sight()),
-                   .size = size,
-                   .profiled = true}));
+      run.add(
+          {sizeName(size), chain},
+          {.chain = chain == other ? otherChain() : thesisChain(), .size = size, .profiled = true});
   return run.takeTurnsEverywhere({.take = [&](const Name& name, const Sample& sample) {
     const bool isOther = name[1] == other;
     for (const graph::StepProfile& step : sample.profile.steps)
@@ -120,8 +114,8 @@ std::vector<Block> report(const Results& results) {
   blocks.emplace_back(
       "Time in ms: median (quartiles) over all cameras and rounds. Below the whole frame stand the "
       "passes of a second chain, which is drawn in turn with it: Lighting without shadows, other "
-      "methods of ScreenSpaceAo and DepthOfField, and Fxaa. Radius, lens and focus follow each "
-      "scene's scale.");
+      "methods of ScreenSpaceAo and DepthOfField, and Fxaa. Radius, lens and focus follow from "
+      "how far away things are at each place.");
   const std::vector<std::string> sizes = results.parts(0);
   const std::vector<std::string> passes = results.parts(1), scenes = results.parts(2);
   for (const std::string& size : sizes)

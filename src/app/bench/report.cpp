@@ -52,11 +52,6 @@ std::string htmlOf(const Plot& plot) {
   return "<h3>" + escapedXml(plot.title) + "</h3>\n" + svgOf(plot);
 }
 
-// Said once for all suites of a run: they follow each other.
-std::vector<std::pair<std::string, std::string>> contextOf(const std::vector<Results>& results) {
-  return results.empty() ? Context{}.described() : results.front().context.described();
-}
-
 std::vector<std::string> notesOf(const Results& results) {
   std::vector<std::string> notes = results.notes;
   notes.insert(
@@ -117,7 +112,7 @@ std::string ratioText(std::span<const double> ratios) {
 
 std::string benchMarkdown(const std::vector<Results>& results, const std::vector<Report>& reports) {
   std::string text = "# Measured by lucerna bench\n\n";
-  for (const auto& [name, value] : contextOf(results))
+  for (const auto& [name, value] : sharedContext(results).described())
     text += fmt::format("- {}: {}\n", name, escapedMarkdown(value));
   for (std::size_t i = 0; i < reports.size(); ++i) {
     text += "\n## " + escapedMarkdown(reports[i].title) + "\n";
@@ -134,7 +129,7 @@ std::string benchMarkdown(const std::vector<Results>& results, const std::vector
 std::string benchHtml(const std::vector<Results>& results, const std::vector<Report>& reports) {
   std::string body = "<h1>Measured by lucerna bench</h1>\n";
   body += "<dl>\n";
-  for (const auto& [name, value] : contextOf(results))
+  for (const auto& [name, value] : sharedContext(results).described())
     body += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escapedXml(value));
   body += "</dl>\n";
   for (std::size_t i = 0; i < reports.size(); ++i) {

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "app/bench/statistics.hpp"
+#include "core/log.hpp"
 #include "core/version.hpp"
 
 namespace lucerna::app::bench {
@@ -119,6 +120,21 @@ std::vector<double> Results::ratios(const Name& begin, const Name& baseline) con
 
 void Results::note(const std::string& text) {
   if (std::ranges::find(notes, text) == notes.end()) notes.push_back(text);
+}
+
+void Results::fail(const std::string& what, const Error& error) {
+  std::string text = fmt::format("Failed: {}: {}", what, error.message);
+  std::ranges::replace(text, '\n', ' ');
+  note(text);
+  if (!failed) failed = error.kind;
+  log::error("{}: {}: {}", suite, what, error.message);
+}
+
+Context sharedContext(const std::vector<Results>& suites) {
+  if (suites.empty()) return {};
+  const auto opened =
+      std::ranges::find_if(suites, [](const Results& r) { return !r.context.driver.empty(); });
+  return opened == suites.end() ? suites.front().context : opened->context;
 }
 
 std::vector<std::string> Results::parts(std::size_t place, const Name& begin) const {

@@ -1,10 +1,13 @@
 // What a suite measured, on what machine. Nothing is made of it yet: report.hpp does that.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "core/result.hpp"
 
 namespace lucerna::app::bench {
 
@@ -53,8 +56,9 @@ struct Results {
   Context context{};
   int cameras = 0, rounds = 0;  // each variant takes `rounds` turns at each camera
   std::vector<Measurement> measurements{};
-  std::vector<std::string> notes{};  // what was left out, and why
-  bool cancelled = false;            // scenes are missing
+  std::vector<std::string> notes{};   // what was left out, and why
+  bool cancelled = false;             // scenes are missing
+  std::optional<ErrorKind> failed{};  // what went wrong first, if anything did; notes say what
 
   // The measurement of that name, made if there is none.
   Measurement& at(const Name& name);
@@ -67,9 +71,14 @@ struct Results {
   std::vector<double> ratios(const Name& begin, const Name& baseline) const;
   // Adds the note unless it is there already.
   void note(const std::string& text);
+  // Notes that `what` is missing for this error, and says so.
+  void fail(const std::string& what, const Error& error);
   // The different parts at `place` of names that begin with `begin`, in order.
   std::vector<std::string> parts(std::size_t place, const Name& begin = {}) const;
 };
+
+// Said once for all suites of a run: that of the first one which came to open a scene.
+Context sharedContext(const std::vector<Results>& suites);
 
 // As Google Benchmark writes it (--benchmark_out, json_schema_version 1), so that its tools read
 // it: a run of type "iteration" for each sample of time and the aggregates "median",

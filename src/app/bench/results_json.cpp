@@ -22,10 +22,13 @@ constexpr Aggregate kAggregates[] = {{"median", &Spread::median},
                                      {"max", &Spread::max}};
 
 Json contextJson(const std::vector<Results>& suites) {
-  const Context context = suites.empty() ? Context{} : suites.front().context;
+  const Context context = sharedContext(suites);
   Json extents = Json::object();
   for (const Results& results : suites)
-    extents[results.suite] = {{"cameras", results.cameras}, {"rounds", results.rounds}};
+    extents[results.suite] = {{"cameras", results.cameras},
+                              {"rounds", results.rounds},
+                              {"cancelled", results.cancelled},
+                              {"notes", results.notes}};
   return {{"date", context.date},
           {"executable", "lucerna bench"},
           {"num_cpus", context.cores},

@@ -28,22 +28,21 @@ void addSraa(Chain& chain, const std::string& geometry) {
 }
 
 // SRAA mixes what the eye sees, which ToneMap makes; effects behind it want smooth edges already.
-Chain chainOf(const std::string& technique, const std::string& effects, float sight) {
+Chain chainOf(const std::string& technique, const std::string& effects) {
   const bool all = effects == kEffects;
   const auto smooth = [&](Chain& chain) {
     if (technique == kSraaDepth) addSraa(chain, kDepth);
     if (technique == kSraa) addSraa(chain, kNormals);
   };
   Chain chain{{{"Cull"}, {"GBuffer"}}};
-  if (all) chain.rows.push_back({"ScreenSpaceAo", {fmt::format("radius={}", kAoRadius * sight)}});
+  if (all) chain.rows.push_back({"ScreenSpaceAo", {}, {{"radius", kAoRadius}}});
   chain.rows.insert(
       chain.rows.end(),
       {{"Lighting"}, {"CustomShaders"}, {"Background"}, {"Mirrors"}, {"Transparency"}});
   if (all) {
     smooth(chain);
-    chain.rows.push_back({"DepthOfField",
-                          {fmt::format("lensRadius={}", kLensRadius * sight),
-                           fmt::format("focusDistance={}", sight)}});
+    chain.rows.push_back(
+        {"DepthOfField", {}, {{"lensRadius", kLensRadius}, {"focusDistance", 1.f}}});
   }
   chain.rows.push_back({"ToneMap"});
   if (!all) smooth(chain);
@@ -80,21 +79,18 @@ void take(Run& run, const Name& name, const Sample& sample) {
 }
 
 // The first size is that of whole frames and pictures, the last that of the split.
-Status addVariants(Run& run) {
+void addVariants(Run& run) {
   const uvec2 size = run.extent.sizes.front(), large = run.extent.sizes.back();
-  const float sight = run.sight();
   for (const std::string& geometry : {kDepth, kNormals})
-    LUCERNA_TRY_VOID(
-        run.add({kSplit, sizeName(large), geometry, run.scene},
-                {.chain = chainOf(geometry == kDepth ? kSraaDepth : kSraa, kPlainPicture, sight),
-                 .size = large,
-                 .profiled = true}));
+    run.add({kSplit, sizeName(large), geometry, run.scene},
+            {.chain = chainOf(geometry == kDepth ? kSraaDepth : kSraa, kPlainPicture),
+             .size = large,
+             .profiled = true});
   for (const std::string& effects : {kPlainPicture, kEffects})
     for (const std::string& technique : kTechniques)
-      LUCERNA_TRY_VOID(run.add({kFrame, sizeName(size), effects, technique, run.scene},
-                               {.chain = chainOf(technique, effects, sight),
-                                .size = technique == kSupersampling ? 2u * size : size}));
-  return {};
+      run.add({kFrame, sizeName(size), effects, technique, run.scene},
+              {.chain = chainOf(technique, effects),
+               .size = technique == kSupersampling ? 2u * size : size});
 }
 
 // Draws sixteen samples a pixel.
@@ -102,8 +98,7 @@ class TruthMaker {
  public:
   static Result<TruthMaker> of(Run& run) {
     const uvec2 size = 4u * run.extent.sizes.front();
-    LUCERNA_TRY(picture,
-                run.stage.add({.chain = chainOf(kNone, kPlainPicture, run.sight()), .size = size}));
+    LUCERNA_TRY(picture, run.stage.add({.chain = chainOf(kNone, kPlainPicture), .size = size}));
     LUCERNA_TRY(depth,
                 run.stage.add({.chain = {{{"Cull"}, {"GBuffer"}}, "GBuffer.depth"}, .size = size}));
     return TruthMaker{picture, depth};
@@ -124,7 +119,7 @@ class TruthMaker {
 };
 
 Status measure(Run& run) {
-  LUCERNA_TRY_VOID(addVariants(run));
+  addVariants(run);
   LUCERNA_TRY(maker, TruthMaker::of(run));
   Truth truth;
   return run.takeTurnsEverywhere(

@@ -6,8 +6,8 @@
 namespace lucerna::app::bench {
 namespace {
 
-constexpr float kRadius = 0.1f;  // of the sight
-constexpr int kTraced = 256;     // directions a pixel
+const Length kRadius{"radius", 0.1f};
+constexpr int kTraced = 256;  // directions a pixel
 
 // A method and the blur that the sweep below found best for it.
 struct Method {
@@ -22,28 +22,29 @@ const std::vector<std::string> kBlurs{"bilateral", "box", "none"};
 const std::string kSuffice = "25";  // samples, as the thesis says; at which blurs are compared
 
 // Measurements are named by label, samples and scene.
-Status add(Run& run, const Method& method, const std::string& blur, const std::string& samples) {
-  return run.add({method.label(blur), samples, run.scene},
-                 {.chain = {{{"Cull"},
-                             {"GBuffer"},
-                             {"ScreenSpaceAo",
-                              {"method=" + method.name, "blur=" + blur, "samples=" + samples,
-                               fmt::format("radius={}", kRadius * run.sight())}}},
-                            "ScreenSpaceAo.ambientVisibility"},
-                  .size = run.extent.sizes.front(),
-                  .profiled = true});
+void add(Run& run, const Method& method, const std::string& blur, const std::string& samples) {
+  run.add({method.label(blur), samples, run.scene},
+          {.chain = {{{"Cull"},
+                      {"GBuffer"},
+                      {"ScreenSpaceAo",
+                       {"method=" + method.name, "blur=" + blur, "samples=" + samples},
+                       {kRadius}}},
+                     "ScreenSpaceAo.ambientVisibility"},
+           .size = run.extent.sizes.front(),
+           .profiled = true});
 }
 
 Result<Image> traced(const Run& run) {
   const uvec2 size = run.extent.sizes.front();
-  const trace::ReferencePicture picture =
-      trace::renderReference(run.stage.scene(), {.size = size,
-                                                 .view = run.stage.view(size),
-                                                 .samples = kTraced,
-                                                 .primary = trace::Primary::Centre,
-                                                 .shadows = false,
-                                                 .mirrors = 0,
-                                                 .aoRadius = kRadius * run.sight()});
+  const trace::ReferencePicture picture = trace::renderReference(
+      run.stage.scene(),
+      {.size = size,
+       .view = run.stage.view(size),
+       .samples = kTraced,
+       .primary = trace::Primary::Centre,
+       .shadows = false,
+       .mirrors = 0,
+       .aoRadius = static_cast<float>(run.stage.length("ScreenSpaceAo", kRadius))});
   if (picture.cancelled) return error(ErrorKind::Cancelled, "cancelled while tracing");
   return picture.ao;
 }
@@ -61,10 +62,9 @@ double meanSquaredError(const Image& truth, const Image& picture) {
 
 Status measure(Run& run) {
   for (const Method& method : kMethods) {
-    for (const std::string& samples : kSamples)
-      LUCERNA_TRY_VOID(add(run, method, method.blur, samples));
+    for (const std::string& samples : kSamples) add(run, method, method.blur, samples);
     for (const std::string& blur : kBlurs)
-      if (blur != method.blur) LUCERNA_TRY_VOID(add(run, method, blur, kSuffice));
+      if (blur != method.blur) add(run, method, blur, kSuffice);
   }
   Image truth;
   return run.takeTurnsEverywhere(
@@ -164,7 +164,7 @@ std::vector<Block> report(const Results& results) {
                   "is traced with {} directions a pixel from the same surfaces, all of them plain. "
                   "The radius is "
                   "{} of the distance at which things are seen. Over all cameras.",
-                  kTraced, kRadius));
+                  kTraced, kRadius.share));
   std::vector<std::string> labels;
   std::vector<std::string> names;
   for (const Method& method : kMethods) {

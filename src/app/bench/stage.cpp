@@ -1,5 +1,6 @@
 #include "app/bench/stage.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "app/frame.hpp"
@@ -91,8 +92,24 @@ Result<std::size_t> Stage::add(const Variant& variant) {
   return lanes_.size() - 1;
 }
 
-void Stage::look(const CameraPose& pose) {
+Status Stage::look(const CameraPose& pose, float sight) {
   moveCamera(session_->scene, session_->camera, pose);
+  sight_ = sight;
+  for (const Lane& lane : lanes_)
+    for (const Row& row : lane.variant.chain.rows)
+      for (const Length& wanted : row.lengths)
+        LUCERNA_TRY_VOID(lane.executor->setParam(row.pass, wanted.param, length(row.pass, wanted)));
+  return {};
+}
+
+double Stage::length(const std::string& pass, const Length& length) const {
+  const graph::PassType* type = session_->registry.find(pass);
+  CHECK(type, "no pass {}", pass);
+  const graph::PassDescription description = type->describe({});
+  const graph::ParamDescription* param = description.param(length.param);
+  CHECK(param && param->min && param->max, "{}.{} has no range", pass, length.param);
+  return std::clamp(static_cast<double>(length.share) * static_cast<double>(sight_), *param->min,
+                    *param->max);
 }
 
 scene::View Stage::view(uvec2 size) const {

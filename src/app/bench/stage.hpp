@@ -12,9 +12,14 @@
 namespace lucerna::app::bench {
 
 // A row of a pipeline, named after its pass.
+struct Length {
+  std::string param;
+  float share;  // of how far away things are that are seen
+};
 struct Row {
   std::string pass;
   std::vector<std::string> settings = {};  // "samples=8"
+  std::vector<Length> lengths = {};        // set anew at each place
 };
 struct Chain {
   std::vector<Row> rows;
@@ -53,8 +58,10 @@ class Stage {
   Result<std::size_t> add(const Variant& variant);
   const Variant& variant(std::size_t number) const { return lanes_[number].variant; }
 
-  // From where the next frames are seen.
-  void look(const CameraPose& pose);
+  // From where the next frames are seen. sight: m, see SeededCamera; rows' lengths follow from it.
+  Status look(const CameraPose& pose, float sight = 1.f);
+  // m: of a pass of that type, as far as its parameter's range allows.
+  double length(const std::string& pass, const Length& length) const;
 
   // One frame. picture: its output, if it is wanted (its download is not timed); else null.
   Result<Sample> draw(std::size_t number, Image* picture = nullptr);
@@ -72,6 +79,7 @@ class Stage {
     std::unique_ptr<graph::Executor> executor;
   };
   std::unique_ptr<Session> session_;
+  float sight_ = 1.f;        // m
   std::vector<Lane> lanes_;  // freed before the session's device
 };
 

@@ -20,6 +20,12 @@ std::unique_ptr<Stage> open(const std::string& scene, bool plain = false) {
   return stage ? std::move(*stage) : nullptr;
 }
 
+void lookFromSomewhere(Stage& stage, std::uint64_t seed = 0) {
+  const SeededCamera camera = seededCameras(stage.scene(), {.count = 1, .seed = seed})[0];
+  const Status looked = stage.look(camera.pose, camera.sight);
+  EXPECT_TRUE(looked) << looked.error().message;
+}
+
 const Chain kDeferred{{{"Cull"}, {"GBuffer"}, {"Lighting"}, {"Background"}, {"ToneMap"}}};
 
 TEST(Stage, VariantsDoNotDisturbEachOther) {
@@ -30,7 +36,7 @@ TEST(Stage, VariantsDoNotDisturbEachOther) {
   dark.rows.back().settings = {"exposure=-8"};
   const auto second = stage->add({.chain = dark, .size = 2u * kSize, .profiled = true});
   ASSERT_TRUE(first && second);
-  stage->look(seededCameras(stage->scene(), {.count = 1})[0].pose);
+  lookFromSomewhere(*stage);
   Image before, other, after;
   ASSERT_TRUE(stage->draw(*first, &before));
   ASSERT_TRUE(stage->draw(*second, &other));
@@ -46,7 +52,7 @@ TEST(Stage, ASampleHasTimesAndCounts) {
   const auto whole = stage->add({.chain = kDeferred, .size = kSize});
   const auto profiled = stage->add({.chain = kDeferred, .size = kSize, .profiled = true});
   ASSERT_TRUE(whole && profiled);
-  stage->look(seededCameras(stage->scene(), {.count = 1})[0].pose);
+  lookFromSomewhere(*stage);
   const auto frame = stage->draw(*whole), passes = stage->draw(*profiled);
   ASSERT_TRUE(frame && passes);
   EXPECT_GT(frame->cpuMs, 0);
@@ -66,6 +72,30 @@ TEST(Stage, FaultsOfAChainAreSaid) {
   EXPECT_FALSE(stage->add({.chain = {{{"Cull", {"colour=red"}}}}, .size = kSize}));
 }
 
+// And stay in their parameters' ranges, however odd the scene.
+TEST(Stage, LengthsFollowTheSight) {
+  const auto stage = open("builtin:cornell");
+  ASSERT_TRUE(stage);
+  const Length radius{"radius", 0.1f};
+  const auto occluded =
+      stage->add({.chain = {{{"Cull"}, {"GBuffer"}, {"ScreenSpaceAo", {}, {radius}}},
+                            "ScreenSpaceAo.ambientVisibility"},
+                  .size = kSize});
+  ASSERT_TRUE(occluded);
+  const CameraPose pose = seededCameras(stage->scene(), {.count = 1})[0].pose;
+  Image small, large;
+  ASSERT_TRUE(stage->look(pose, 0.1f));
+  EXPECT_NEAR(stage->length("ScreenSpaceAo", radius), 0.01, 1e-6);
+  ASSERT_TRUE(stage->draw(*occluded, &small));
+  ASSERT_TRUE(stage->look(pose, 5.f));
+  ASSERT_TRUE(stage->draw(*occluded, &large));
+  EXPECT_FALSE(std::ranges::equal(small.bytes(), large.bytes()));
+  for (const auto& [sight, metres] : {std::pair{1e-6f, 1e-3}, {1e9f, 1e4}}) {
+    EXPECT_TRUE(stage->look(pose, sight));
+    EXPECT_EQ(stage->length("ScreenSpaceAo", radius), metres);
+  }
+}
+
 // What makes errors of a technique out of differences from the reference: nothing else differs.
 TEST(Stage, PlainScenesAgreeWithTheReference) {
   for (const char* scene : {"builtin:cornell", "builtin:mirrors"}) {
@@ -75,7 +105,7 @@ TEST(Stage, PlainScenesAgreeWithTheReference) {
     chain.rows.back().settings = {"operator=linear"};
     const auto variant = stage->add({.chain = chain, .size = kSize});
     ASSERT_TRUE(variant);
-    stage->look(seededCameras(stage->scene(), {.count = 1, .seed = 1})[0].pose);
+    lookFromSomewhere(*stage, 1);
     Image picture;
     ASSERT_TRUE(stage->draw(*variant, &picture));
     const auto traced = trace::renderReference(stage->scene(), {.size = kSize,

@@ -5,6 +5,7 @@
 
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/text.hpp"
 
 namespace lucerna::app::bench {
 namespace {
@@ -67,16 +68,26 @@ Status measure(const Suite& suite, const SceneChoice& scene, const BenchOptions&
 
 }  // namespace
 
-float Run::sight() const {
-  std::vector<double> sights;
-  for (const SeededCamera& camera : cameras) sights.push_back(static_cast<double>(camera.sight));
-  return static_cast<float>(spreadOf(sights).median);
+void Run::add(Name name, const Variant& variant) {
+  if (const auto number = stage.add(variant))
+    lanes_.push_back({std::move(name), *number});
+  else
+    results.fail(scene + ", " + join(name, ", "), number.error());
 }
 
-Status Run::add(Name name, const Variant& variant) {
-  LUCERNA_TRY(number, stage.add(variant));
-  lanes_.push_back({std::move(name), number});
-  return {};
+Result<std::optional<Sample>> Run::draw(Lane& lane, Image* picture) {
+  std::optional<Sample> sample;
+  if (!lane.works) return sample;
+  auto drawn = stage.draw(lane.variant, picture);
+  if (drawn) {
+    sample = *std::move(drawn);
+  } else if (drawn.error().kind == ErrorKind::Cancelled) {
+    return drawn.error();
+  } else {
+    lane.works = false;
+    results.fail(scene + ", " + join(lane.name, ", "), drawn.error());
+  }
+  return sample;
 }
 
 Status Run::takeTurns(const Turns& turns, double share) {
@@ -87,16 +98,16 @@ Status Run::takeTurns(const Turns& turns, double share) {
   double pixels = 0;
   for (const Lane& lane : lanes_) pixels += pixelsOf(lane) * (extent.rounds + 1);
   if (turns.prepare) LUCERNA_TRY_VOID(turns.prepare());
-  for (const Lane& lane : lanes_) {
+  for (Lane& lane : lanes_) {
     Image picture;
-    LUCERNA_TRY_VOID(stage.draw(lane.variant, turns.see ? &picture : nullptr));
-    if (turns.see) turns.see(lane.name, picture);
+    LUCERNA_TRY(warm, draw(lane, turns.see ? &picture : nullptr));
+    if (warm && turns.see) turns.see(lane.name, picture);
     advance(share * pixelsOf(lane) / pixels);
   }
   for (int round = 0; round < extent.rounds; ++round)
     for (const std::size_t i : turnOrder(lanes_.size(), rounds_++)) {
-      LUCERNA_TRY(sample, stage.draw(lanes_[i].variant));
-      turns.take(lanes_[i].name, sample);
+      LUCERNA_TRY(sample, draw(lanes_[i]));
+      if (sample) turns.take(lanes_[i].name, *sample);
       advance(share * pixelsOf(lanes_[i]) / pixels);
     }
   return {};
@@ -104,7 +115,7 @@ Status Run::takeTurns(const Turns& turns, double share) {
 
 Status Run::takeTurnsEverywhere(const Turns& turns) {
   for (const SeededCamera& camera : cameras) {
-    stage.look(camera.pose);
+    LUCERNA_TRY_VOID(stage.look(camera.pose, camera.sight));
     LUCERNA_TRY_VOID(takeTurns(turns, 1.0 / static_cast<double>(cameras.size())));
   }
   return {};
@@ -148,7 +159,7 @@ Status checkScenes(const BenchOptions& options) {
                *twice);
 }
 
-Result<Results> run(const Suite& suite, const BenchOptions& options) {
+Results run(const Suite& suite, const BenchOptions& options) {
   const Extent extent = extentOf(suite, options);
   Results results{.suite = std::string(suite.name), .context = contextOfMachine()};
   results.context.quick = options.quick;
@@ -162,12 +173,12 @@ Result<Results> run(const Suite& suite, const BenchOptions& options) {
     log::debug("{}: {}", suite.name, scene.name);
     Results withScene = results;
     const Status measured = measure(suite, scene, options, extent, withScene, progress);
-    if (!measured && measured.error().kind == ErrorKind::Cancelled) {
-      results.cancelled = true;
-      return results;
-    }
-    LUCERNA_TRY_VOID(measured);
+    if (!measured) withScene.measurements = std::move(results.measurements);
     results = std::move(withScene);
+    if (measured) continue;
+    results.cancelled = measured.error().kind == ErrorKind::Cancelled;
+    if (results.cancelled) break;
+    results.fail(scene.name, measured.error());
   }
   return results;
 }

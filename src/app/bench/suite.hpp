@@ -55,12 +55,9 @@ class Run {
   Extent extent;
   std::vector<SeededCamera> cameras;  // as many as extent has
 
-  // m: the scale of what is seen, the median of the cameras' sights. Parameters that are lengths
-  // follow from it.
-  float sight() const;
-
-  // A variant that takes turns with the others. Errors: Stage::add().
-  Status add(Name name, const Variant& variant);
+  // A variant that takes turns with the others. One that cannot be drawn, now or later, fails
+  // alone: see Results::fail().
+  void add(Name name, const Variant& variant);
 
   struct Turns {
     std::function<Status()> prepare = nullptr;                         // once, before the warm-up
@@ -69,21 +66,24 @@ class Run {
   };
   // From where the camera stands: draws each variant once to warm up, in the order in which they
   // were added, then in as many rounds as extent has, each in another order. share: of the scene's
-  // work that this is. Errors: those of prepare() and of drawing; ErrorKind::Cancelled.
+  // work that this is. Errors: those of prepare(); ErrorKind::Cancelled.
   Status takeTurns(const Turns& turns, double share);
   // That at each of the cameras.
   Status takeTurnsEverywhere(const Turns& turns);
 
  private:
+  struct Lane {
+    Name name;
+    std::size_t variant;
+    bool works = true;
+  };
+  // None if it fails.
+  Result<std::optional<Sample>> draw(Lane& lane, Image* picture = nullptr);
   void advance(double share);
 
   Progress& progress_;
   double done_ = 0;         // of the scene's work
   std::size_t rounds_ = 0;  // of all places so far
-  struct Lane {
-    Name name;
-    std::size_t variant;
-  };
   std::vector<Lane> lanes_;
 };
 
@@ -109,9 +109,9 @@ std::span<const Suite> suites();
 // names is not there.
 Status checkScenes(const BenchOptions& options);
 
-// Measures. When the user cancels, what is there of whole scenes (Results::cancelled). Errors: a
-// scene that cannot be read, a pipeline that does not fit this driver.
-Result<Results> run(const Suite& suite, const BenchOptions& options);
+// Measures. When the user cancels, what is there of whole scenes (Results::cancelled). A scene that
+// cannot be read and a chain that does not fit this driver are missing (Results::failed).
+Results run(const Suite& suite, const BenchOptions& options);
 
 // FOLDER/NAME.json, .md and .html. Returns the paths.
 Result<std::vector<std::string>> writeResults(const std::string& folder, const std::string& name,
