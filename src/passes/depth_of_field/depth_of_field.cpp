@@ -10,7 +10,8 @@ using gpu::Texture;
 
 namespace {
 
-constexpr int kTile = 16;  // px; windows begin at multiples of it, so that all have the same tiles
+// px, as in tile.glsl. Windows begin at multiples of it, so that all have the same tiles.
+constexpr int kTile = 16;
 
 int tilesAcross(float pixels) {
   return static_cast<int>(std::ceil(pixels / kTile));
@@ -128,14 +129,13 @@ void DepthOfField::describe(graph::PassInfo<Params, Ports>& d) {
 
 DepthOfField::DepthOfField(gpu::Device& device) {
   const auto program = [&](const char* name, std::map<std::string, std::string> defines = {}) {
-    defines["TILE"] = std::to_string(kTile);
     return device.program({.vertex = "gpu/fullscreen.vert",
                            .fragment = fmt::format("passes/depth_of_field/{}.frag", name),
                            .defines = std::move(defines)});
   };
   tilesProgram_ = program("tiles");
   spreadProgram_ = program("spread");
-  layerOfPictureProgram_ = program("layer", {{"OF_PICTURE", ""}});
+  layerOfPictureProgram_ = program("layer", {{"OF_PICTURE", "1"}});
   layerProgram_ = program("layer");
   behindProgram_ = program("behind");
   gatherProgram_ = program("gather");

@@ -1,4 +1,5 @@
 // The light of all that lies on one side of the plane in focus, smoothed along one axis for being read in strides.
+// variant: OF_PICTURE=1
 #include "passes/depth_of_field/grid.glsl"
 
 uniform float side;  // -1: before the plane in focus; 1: behind it

@@ -1,4 +1,6 @@
 // The largest circles that may reach into each tile, from any.
+#include "passes/depth_of_field/tile.glsl"
+
 uniform sampler2D tiles;
 uniform int reach;  // tiles to all sides
 
@@ -11,7 +13,7 @@ void main() {
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x) {
       vec2 found = texelFetch(tiles, ivec2(x, y), 0).rg;
-      float between = length(vec2(max(abs(ivec2(x, y) - tile) - 1, 0) * TILE));
+      float between = length(vec2(max(abs(ivec2(x, y) - tile) - 1, 0) * kTile));
       largest = max(largest, mix(vec2(0.0), found, greaterThan(found, vec2(between))));
     }
 }
