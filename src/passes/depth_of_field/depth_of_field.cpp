@@ -1,7 +1,9 @@
 #include "passes/depth_of_field/depth_of_field.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <map>
+#include <string>
 
 namespace lucerna::passes {
 
