@@ -108,7 +108,12 @@ class BenchTest(unittest.TestCase):
         runs, text = self.measured("ssao-samples", *small())
         few, many = (runs[f"ssao-samples/horizon, bilateral/{n}/cornell_median"]["mse"] for n in ("4", "64"))
         self.assertLess(many, few)
-        self.assertIn("MSE in the time of the hemisphere's 25 samples", text)
+        head, table = text.split("**MSE in the time of the hemisphere's 25 samples")[1].split("\n\n")[:2]
+        self.assertIn("-: no number", head)
+        cells = table.splitlines()[2].strip("| ").split(" | ")
+        self.assertTrue(cells[2].endswith("(1.00)"), cells)  # the hemisphere against itself
+        for cell in cells[1:]:
+            self.assertRegex(cell, r"^(-|[\d.e-]+ \([\d.]+\))$")
 
     def test_shadow_maps_have_their_error(self):
         runs, _ = self.measured("shadow-size", *small("atrium"))
@@ -132,6 +137,37 @@ class BenchTest(unittest.TestCase):
         _, talk = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, talk)
         self.assertIn("Cancelled: scenes are missing.", (self.folder / "results" / "forward.md").read_text())
+        context = json.loads((self.folder / "results" / "forward.json").read_text())["context"]
+        self.assertTrue(context["suites"]["forward"]["cancelled"])
+        self.assertNotEqual(context["driver"], "")
+
+    def test_a_scene_that_cannot_be_read_costs_no_other(self):
+        (self.folder / "broken.gltf").write_text("{")
+        run = self.bench("forward", *small(), "--scene", "broken.gltf", "-o", "results", "--json")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        self.assertIn("broken.gltf", run.stderr)
+        self.assertTrue(json.loads(run.stdout)["failed"])
+        self.assertIn("- Failed: broken: ", (self.folder / "results" / "forward.md").read_text())
+        document = json.loads((self.folder / "results" / "forward.json").read_text())
+        self.assertIn("Failed: broken: ", document["context"]["suites"]["forward"]["notes"][0])
+        self.assertIn("forward/48x36/forward/cornell_median", [run["name"] for run in document["benchmarks"]])
+
+    def test_where_no_scene_can_be_read_nothing_is_written(self):
+        (self.folder / "broken.gltf").write_text("{")
+        run = self.bench("all", "--quick", "--scene", "broken.gltf", "-o", "results")
+        self.assertEqual(run.returncode, 3, run.stderr)
+        self.assertEqual(list((self.folder / "results").iterdir()), [])
+
+    def test_a_chain_that_cannot_run_costs_no_other(self):
+        broken = self.folder / "shaders" / "passes" / "fxaa" / "fxaa.frag"
+        broken.parent.mkdir(parents=True)
+        broken.write_text("void main() {\n  nonsense;\n}\n")
+        run = self.bench("sraa", *small(), "--shaders", "shaders", "-o", "results")
+        self.assertEqual(run.returncode, 1, run.stderr)
+        text = (self.folder / "results" / "sraa.md").read_text()
+        self.assertIn("- Failed: frame, 48x36, no effects, Fxaa, cornell: ", text)
+        row = next(line for line in text.splitlines() if line.startswith("| cornell | ") and "| - |" in line)
+        self.assertEqual(row.count(" - "), 1, row)
 
 
 if __name__ == "__main__":

@@ -58,13 +58,13 @@ void add(Measurement& m, const Cost& cost) {
   m.count("primitives", static_cast<double>(cost.counters.primitives));
 }
 
-// Variants are named by size and chain; measurements by size, pass and scene.
+// Variants are named by size, chain and scene; measurements by size, pass and scene.
 Status measure(Run& run) {
   const std::string thesis = "thesis", other = "other";
   for (const uvec2 size : run.extent.sizes)
     for (const std::string& chain : {thesis, other})
       run.add(
-          {sizeName(size), chain},
+          {sizeName(size), chain, run.scene},
           {.chain = chain == other ? otherChain() : thesisChain(), .size = size, .profiled = true});
   return run.takeTurnsEverywhere({.take = [&](const Name& name, const Sample& sample) {
     const bool isOther = name[1] == other;

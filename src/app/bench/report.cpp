@@ -106,6 +106,12 @@ std::string spreadText(std::span<const double> samples) {
                      numberText(spread.upper));
 }
 
+std::string worstText(std::span<const double> errors, double Spread::* worst) {
+  if (errors.empty()) return "-";
+  const Spread spread = spreadOf(errors);
+  return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.*worst));
+}
+
 std::string ratioText(std::span<const double> ratios) {
   return ratios.empty() ? "-" : fmt::format("{:.2f}", spreadOf(ratios).median);
 }

@@ -27,6 +27,12 @@ TEST(BenchReport, SpreadsAreMediansWithQuartiles) {
   EXPECT_EQ(spreadText({}), "-");
 }
 
+TEST(BenchReport, ErrorsAreMediansWithTheWorst) {
+  EXPECT_EQ(worstText(Samples{1, 2, 9}), "2.00 (worst 9.00)");
+  EXPECT_EQ(worstText(Samples{20, 30, 40}, &Spread::min), "30.0 (worst 20.0)");
+  EXPECT_EQ(worstText({}), "-");
+}
+
 TEST(BenchReport, ARatioIsTheMedianOfRatios) {
   EXPECT_EQ(ratioText(Samples{1, 1.5, 100}), "1.50");
   EXPECT_EQ(ratioText({}), "-");

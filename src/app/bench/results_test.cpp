@@ -56,6 +56,23 @@ TEST(BenchResults, ANoteIsSaidOnce) {
   EXPECT_THAT(results.notes, ElementsAre("Skipped: sponza"));
 }
 
+TEST(BenchResults, WhatFailsIsNotedAndTheFirstKindKept) {
+  Results results{.suite = "passes"};
+  results.fail("broken", {ErrorKind::Input, "broken.gltf: no\ngood"});
+  results.fail("Cull", {ErrorKind::Pipeline, "does not fit"});
+  EXPECT_THAT(results.notes,
+              ElementsAre("Failed: broken: broken.gltf: no good", "Failed: Cull: does not fit"));
+  EXPECT_EQ(results.failed, ErrorKind::Input);
+}
+
+TEST(BenchResults, TheContextIsThatOfASuiteThatOpenedAScene) {
+  Results unread, opened = exampleResults();
+  unread.context.version = "other";
+  EXPECT_EQ(sharedContext({unread, opened}).driver, "llvmpipe");
+  EXPECT_EQ(sharedContext({unread}).version, "other");
+  EXPECT_EQ(sharedContext({}).driver, "");
+}
+
 // The keys that Google Benchmark's own tools read (tools/gbench/report.py there).
 TEST(BenchJson, HasTheShapeOfGoogleBenchmark) {
   const Json document = Json::parse(googleBenchmarkJson({exampleResults()}));
@@ -105,6 +122,7 @@ TEST(BenchJson, SaysHowMuchEachSuiteMeasured) {
   const Json document = Json::parse(googleBenchmarkJson({exampleResults()}));
   EXPECT_EQ(document["context"]["suites"]["passes"]["cameras"], 2);
   EXPECT_EQ(document["context"]["suites"]["passes"]["rounds"], 3);
+  EXPECT_EQ(document["context"]["suites"]["passes"]["cancelled"], false);
 }
 
 }  // namespace

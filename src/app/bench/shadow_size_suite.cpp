@@ -81,12 +81,6 @@ Status measure(Run& run) {
            }});
 }
 
-std::string flipText(const std::vector<double>& flips) {
-  if (flips.empty()) return "-";
-  const Spread spread = spreadOf(flips);
-  return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.max));
-}
-
 // What the thesis says of figure 4.5: lispsm at 2048 is better than uniform maps at 8192.
 Table thesisTable(const Results& results, const std::vector<std::string>& scenes) {
   const std::string lispsm = "lispsm at 2048", uniform = "uniform at " + mapSizes(results).back();
@@ -96,9 +90,10 @@ Table thesisTable(const Results& results, const std::vector<std::string>& scenes
       [&](const std::string& scene, const std::string& column) {
         const auto own = results.samples({"lispsm", "2048", scene}, "flip");
         const auto other = results.samples({"uniform", mapSizes(results).back(), scene}, "flip");
-        if (column == lispsm) return flipText(own);
-        if (column == uniform) return flipText(other);
+        if (column == lispsm) return worstText(own);
+        if (column == uniform) return worstText(other);
         if (column == ratio) return ratioText(pairedRatios(own, other));
+        if (own.size() != other.size()) return std::string("-");
         std::size_t cameras = 0;
         for (std::size_t i = 0; i < own.size(); ++i) cameras += own[i] < other[i];
         return fmt::format("{} of {} cameras", cameras, own.size());
@@ -150,11 +145,12 @@ std::vector<Block> report(const Results& results) {
   for (const std::string& scene : scenes)
     blocks.emplace_back(tableOf("FLIP, " + scene + ": median (worst camera)", "size", sizes,
                                 kMethods, [&](const std::string& size, const std::string& method) {
-                                  return flipText(results.samples({method, size, scene}, "flip"));
+                                  return worstText(results.samples({method, size, scene}, "flip"));
                                 }));
-  blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (quartiles)", "size", sizes, kMethods,
-                              [&](const std::string& size, const std::string& method) {
-                                return spreadText(results.samples({method, size}, "psnr"));
+  blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (worst camera)", "size", sizes,
+                              kMethods, [&](const std::string& size, const std::string& method) {
+                                return worstText(results.samples({method, size}, "psnr"),
+                                                 &Spread::min);
                               }));
   blocks.emplace_back(plotOf(results, "Time against size, all scenes", "ms", false));
   blocks.emplace_back(plotOf(results, "Error against size, all scenes", "FLIP", true));

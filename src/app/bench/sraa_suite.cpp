@@ -147,6 +147,7 @@ Table splitTable(const Results& results, const std::string& size) {
                    const auto filter = times(geometry, "Sraa", scene);
                    if (column.starts_with("samples")) return spreadText(samples);
                    if (column.starts_with("filter")) return spreadText(filter);
+                   if (samples.empty() || filter.empty()) return std::string("-");
                    return numberText(spreadOf(samples).median + spreadOf(filter).median);
                  });
 }
@@ -168,11 +169,12 @@ Table framesTable(const Results& results, const std::string& size, const std::st
 }
 
 Table errorTable(const Results& results, const std::string& size, std::string title,
-                 const std::string& counter) {
+                 const std::string& counter, double Spread::* worst) {
   return tableOf(std::move(title), "scene", results.parts(4, {kFrame, size, kPlainPicture}),
                  kTechniques, [&](const std::string& scene, const std::string& technique) {
-                   return spreadText(
-                       results.samples({kFrame, size, kPlainPicture, technique, scene}, counter));
+                   return worstText(
+                       results.samples({kFrame, size, kPlainPicture, technique, scene}, counter),
+                       worst);
                  });
 }
 
@@ -203,10 +205,11 @@ std::vector<Block> report(const Results& results) {
     for (const std::string& effects : {kPlainPicture, kEffects})
       blocks.emplace_back(framesTable(results, size, effects));
     blocks.emplace_back(errorTable(
-        results, size, "FLIP from 16x supersampling, " + size + ": median (quartiles)", "flip"));
+        results, size, "FLIP from 16 samples a pixel, " + size + ": median (worst camera)", "flip",
+        &Spread::max));
     blocks.emplace_back(errorTable(
-        results, size, "PSNR in dB of the pixels with edges, " + size + ": median (quartiles)",
-        "edge_psnr"));
+        results, size, "PSNR in dB of the pixels with edges, " + size + ": median (worst camera)",
+        "edge_psnr", &Spread::min));
   }
   return blocks;
 }

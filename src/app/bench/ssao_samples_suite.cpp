@@ -85,10 +85,7 @@ Status measure(Run& run) {
 }
 
 std::string errorText(const Results& results, const Name& name) {
-  const std::vector<double> errors = results.samples(name, "mse");
-  if (errors.empty()) return "-";
-  const Spread spread = spreadOf(errors);
-  return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.max));
+  return worstText(results.samples(name, "mse"));
 }
 
 // Over all cameras, of one scene or of all: points at the sample counts, of median time (x) and

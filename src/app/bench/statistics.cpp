@@ -11,8 +11,9 @@ double quantile(const std::vector<double>& sorted, double share) {
   const auto below = static_cast<std::size_t>(place);
   const std::size_t above = std::min(below + 1, sorted.size() - 1);
   const double fraction = place - static_cast<double>(below);
-  return fraction == 0 ? sorted[below]  // whatever stands above: std::lerp(1, inf, 0) is not 1
-                       : std::lerp(sorted[below], sorted[above], fraction);
+  // Infinite samples keep std::lerp from its ends.
+  if (fraction == 0 || sorted[below] == sorted[above]) return sorted[below];
+  return std::lerp(sorted[below], sorted[above], fraction);
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ TEST(Statistics, AnInfiniteSampleLeavesTheLowerQuantilesAlone) {
   EXPECT_EQ(spread.median, 2);
   EXPECT_EQ(spread.lower, 1.5);
   EXPECT_EQ(spread.max, infinite);
+  EXPECT_EQ(spreadOf(std::vector<double>{infinite, infinite}).median, infinite);
 }
 
 // One camera is ten times as dear as the other: the ratio is 2 at both, that of the pooled medians

@@ -72,7 +72,7 @@ void Run::add(Name name, const Variant& variant) {
   if (const auto number = stage.add(variant))
     lanes_.push_back({std::move(name), *number});
   else
-    results.fail(scene + ", " + join(name, ", "), number.error());
+    results.fail(join(name, ", "), number.error());
 }
 
 Result<std::optional<Sample>> Run::draw(Lane& lane, Image* picture) {
@@ -85,7 +85,7 @@ Result<std::optional<Sample>> Run::draw(Lane& lane, Image* picture) {
     return drawn.error();
   } else {
     lane.works = false;
-    results.fail(scene + ", " + join(lane.name, ", "), drawn.error());
+    results.fail(join(lane.name, ", "), drawn.error());
   }
   return sample;
 }

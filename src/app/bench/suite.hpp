@@ -55,8 +55,8 @@ class Run {
   Extent extent;
   std::vector<SeededCamera> cameras;  // as many as extent has
 
-  // A variant that takes turns with the others. One that cannot be drawn, now or later, fails
-  // alone: see Results::fail().
+  // A variant that takes turns with the others, its name ending with the scene's. One that cannot
+  // be drawn, now or later, fails alone: see Results::fail().
   void add(Name name, const Variant& variant);
 
   struct Turns {
