@@ -6,6 +6,7 @@ const g = pass("GBuffer");
 pass("Lighting");
 pass("CustomShaders");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 const toned = pass("ToneMap");
 pass("Fullscreen", {

@@ -9,5 +9,6 @@ pass("SaveImage", {name: "Depth", reads: {color: g.depth}, file: "depth-%04d.exr
 pass("Lighting");
 pass("CustomShaders");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("ToneMap");

@@ -6,6 +6,7 @@ pass("GBuffer");
 pass("Lighting");
 pass("CustomShaders");
 pass("Background");
+pass("Mirrors");
 pass("Transparency");
 pass("Vignette", {strength: 0.9});
 pass("ToneMap");

@@ -7,23 +7,30 @@
 uniform sampler2D ambientVisibility;
 #endif
 
-// The normal of the plane through the pixel and its neighbours, of each side the one that is nearer in
-// depth: shading normals lean, and a plane moved off along them would shadow itself.
-vec3 trueNormalW(ivec2 pixel, vec3 positionW) {
+vec3 positionWOf(ivec2 pixel) {
+  float reversedDepth = max(texelFetch(depth, pixel, 0).r, 1e-30);
+  return worldOfView(positionVOf(ndcOfPixel(vec2(pixel) + 0.5), reversedDepth));
+}
+
+// The way along the surface from the pixel to one of two opposite neighbours: to the one that is more
+// across the shading normal, for the other may show another surface.
+vec3 alongSurface(Surface s, ivec2 pixel, ivec2 side) {
   ivec2 last = textureSize(depth, 0) - 1;
-  float here = texelFetch(depth, pixel, 0).r;
-  vec3 along[2];
-  for (int axis = 0; axis < 2; ++axis) {
-    ivec2 step = axis == 0 ? ivec2(1, 0) : ivec2(0, 1);
-    ivec2 a = max(pixel - step, ivec2(0)), b = min(pixel + step, last);
-    float depthA = texelFetch(depth, a, 0).r, depthB = texelFetch(depth, b, 0).r;
-    bool takeA = b == pixel || (a != pixel && abs(depthA - here) < abs(depthB - here));
-    ivec2 other = takeA ? a : b;
-    vec3 otherV = positionVOf(ndcOfPixel(vec2(other) + 0.5), max(takeA ? depthA : depthB, 1e-30));
-    along[axis] = (worldOfView(otherV) - positionW) * (takeA ? -1.0 : 1.0);
-  }
-  vec3 normalW = cross(along[0], along[1]);
-  return normalW * inversesqrt(max(dot(normalW, normalW), 1e-30));
+  vec3 forward = positionWOf(clamp(pixel + side, ivec2(0), last)) - s.positionW;
+  vec3 backward = s.positionW - positionWOf(clamp(pixel - side, ivec2(0), last));
+  // Beyond the picture's edge there is no neighbour.
+  float a = dot(forward, forward), b = dot(backward, backward);
+  float offA = a > 0.0 ? abs(dot(forward, s.normalW)) * inversesqrt(a) : 2.0;
+  float offB = b > 0.0 ? abs(dot(backward, s.normalW)) * inversesqrt(b) : 2.0;
+  return offA <= offB ? forward : backward;
+}
+
+// The normal of the plane through the pixel and its neighbours: shading normals lean, and a plane
+// moved off along them would shadow itself.
+vec3 trueNormalW(Surface s, ivec2 pixel) {
+  vec3 normalW = cross(alongSurface(s, pixel, ivec2(1, 0)), alongSurface(s, pixel, ivec2(0, 1)));
+  float squared = dot(normalW, normalW);
+  return squared > 0.0 ? normalW * inversesqrt(squared) : s.normalW;
 }
 
 // The pixel's, for lightVisibility().
@@ -31,7 +38,7 @@ vec3 planeNormalW;
 
 Surface shadowedSurface(ivec2 pixel) {
   Surface s = readSurface(pixel);
-  planeNormalW = trueNormalW(pixel, s.positionW);
+  planeNormalW = trueNormalW(s, pixel);
 #ifdef AMBIENT_VISIBILITY
   s.occlusion *= texelFetch(ambientVisibility, pixel, 0).r;
 #endif
