@@ -14,5 +14,5 @@ void main() {
   for (int y = first.y; y < end.y; ++y)
     for (int x = first.x; x < end.x; ++x)
       if (circleAt(texelFetch(depth, ivec2(x, y), 0).r) >= -kSharp)
-        behind += vec4(texelFetch(color, ivec2(x, y), 0).rgb, 1.0) / 16.0;
+        behind += vec4(finite(texelFetch(color, ivec2(x, y), 0).rgb), 1.0) / 16.0;
 }

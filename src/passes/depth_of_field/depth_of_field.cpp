@@ -95,14 +95,17 @@ void DepthOfField::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("maximumRadius", &Params::maximumRadius)
       .range(1, 256)
       .unit("px")
+      .rebuilds(graph::Rebuild::Ports)
       .help("Larger circles of confusion become as large as this.");
   d.param("method", &Params::method)
       .choices({"gather", "separable"})
+      .rebuilds(graph::Rebuild::Ports)
       .help(
           "gather: each pixel from the circles that reach it, so that what is sharp stays clear of "
           "what is blurred; separable: system A's, along rows, then columns.");
   d.param("steps", &Params::steps)
       .range(1, 32)
+      .rebuilds(graph::Rebuild::Ports)
       .help(
           "gather: pixels read between the middle of a circle and its rim, at most; of larger "
           "ones every second, fourth, ... is.");
@@ -111,6 +114,7 @@ void DepthOfField::describe(graph::PassInfo<Params, Ports>& d) {
       .help("separable: of the blurred picture, in sixteenths.");
   d.param("view", &Params::show)
       .choices({"picture", "setup"})
+      .rebuilds(graph::Rebuild::Ports)
       .help("setup: red is in focus; of the rest, white is blurred by maximumRadius.");
   const int halo = haloOf(d.values());
   if (d.values().show == Show::Setup)

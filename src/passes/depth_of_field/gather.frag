@@ -23,7 +23,7 @@ struct Light {
 
 Light fromPicture(ivec2 tap, float side) {
   float radius = side * circleAt(texelFetch(depth, tap, 0).r);
-  return Light(texelFetch(color, tap, 0).rgb, radius, radius > kSharp ? 1.0 : 0.0);
+  return Light(finite(texelFetch(color, tap, 0).rgb), radius, radius > kSharp ? 1.0 : 0.0);
 }
 Light fromLayer(ivec2 tap, sampler2D layer, sampler2D cover) {
   vec4 found = texelFetch(layer, tap, 0);
@@ -66,7 +66,7 @@ float inFront(float radius, float other) { return smoothstep(kSame, kOther, radi
 vec3 farColor(float radius, bool strides) {
   float stride = strideOf(radius), own = ownRadius(radius, stride);
   int rows = rowsOf(radius, stride);
-  vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0);
+  vec4 sum = vec4(0.0);
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
@@ -75,7 +75,7 @@ vec3 farColor(float radius, bool strides) {
       sum += light.cover * share(min(light.radius, own), length(offset), stride) * vec4(light.color, 1.0);
     }
   }
-  return sum.rgb / sum.a;
+  return sum.a > 0.0 ? sum.rgb / sum.a : blurred.rgb;
 }
 
 // What a surface before the plane in focus hides is like what is nearest beside it.
@@ -100,7 +100,7 @@ vec4 hiddenColor(float own, float stride, int rows, bool strides) {
 vec3 nearColor(float radius, bool strides) {
   float stride = strideOf(radius), own = ownRadius(radius, stride);
   int rows = rowsOf(min(kSame * radius, largestAt(pixel).x), stride);
-  vec4 sum = 1e-4 * vec4(blurred.rgb, 1.0);
+  vec4 sum = vec4(0.0);
   float open = 0.0;
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
@@ -114,8 +114,8 @@ vec3 nearColor(float radius, bool strides) {
       open += weight * (further * surface + notInFront * (1.0 - light.cover));
     }
   }
-  vec3 color = sum.rgb / sum.a;
-  open /= open + sum.a;
+  vec3 color = sum.a > 0.0 ? sum.rgb / sum.a : blurred.rgb;
+  open /= max(open + sum.a, 1e-9);
   if (open > 0.004) {
     vec4 hidden = hiddenColor(own, stride, rows, strides);
     if (hidden.a > 0.0) color = mix(color, hidden.rgb / hidden.a, open);
@@ -144,6 +144,7 @@ void main() {
   pixel = ivec2(gl_FragCoord.xy);
   last = textureSize(color, 0) - 1;
   blurred = texelFetch(color, pixel, 0);
+  blurred.rgb = finite(blurred.rgb);
   float circle = circleAt(texelFetch(depth, pixel, 0).r);
   float radius = abs(circle);
   bool strides = strideOf(radius) > 1.0;

@@ -23,7 +23,7 @@ Light lightAt(ivec2 pixel) {
   vec4 found = texelFetch(source, pixel, 0);
 #ifdef OF_PICTURE
   float radius = side * circleAt(texelFetch(depth, pixel, 0).r);
-  return Light(found.rgb, radius, radius > kSharp ? 1.0 : 0.0);
+  return Light(finite(found.rgb), radius, radius > kSharp ? 1.0 : 0.0);
 #else
   return Light(found.rgb, found.a, texelFetch(cover, pixel, 0).r);
 #endif

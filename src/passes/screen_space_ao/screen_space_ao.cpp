@@ -58,6 +58,7 @@ void ScreenSpaceAo::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("reach", &Params::reach)
       .range(8, 4096)
       .unit("px")
+      .rebuilds(graph::Rebuild::Ports)
       .help("Occluders farther away on the screen do not count.");
   d.param("apply", &Params::apply)
       .choices({"lighting", "multiply"})
