@@ -1,4 +1,5 @@
 // Reading the G-buffer back into a Surface.
+//   AMBIENT_VISIBILITY  a texture says how much of the ambient light arrives
 #include "render/gbuffer.glsl"
 
 uniform sampler2D depth;
@@ -7,6 +8,9 @@ uniform sampler2D albedo;
 uniform sampler2D specular;
 uniform usampler2D material;
 uniform sampler2D emissive;
+#ifdef AMBIENT_VISIBILITY
+uniform sampler2D ambientVisibility;
+#endif
 
 // pixel: texel of the G-buffer; its depth must not be 0 (nothing drawn).
 Surface readSurface(ivec2 pixel) {
@@ -20,6 +24,9 @@ Surface readSurface(ivec2 pixel) {
   vec4 specularTexel = texelFetch(specular, pixel, 0);
   s.specular = specularTexel.rgb;
   s.occlusion = specularTexel.a;
+#ifdef AMBIENT_VISIBILITY
+  s.occlusion *= texelFetch(ambientVisibility, pixel, 0).r;
+#endif
   s.emissive = texelFetch(emissive, pixel, 0).rgb;
   unpackMaterial(texelFetch(material, pixel, 0), s);
   return s;

@@ -79,6 +79,18 @@ Table tableOf(
   return table;
 }
 
+LinePlot medianPlot(LinePlot plot, const std::vector<std::string>& names,
+                    const std::vector<std::string>& xs,
+                    const std::function<std::vector<double>(const std::string& name,
+                                                            const std::string& x)>& samplesOf) {
+  for (const std::string& name : names) {
+    Curve& curve = plot.curves.emplace_back(Curve{.name = name});
+    for (const std::string& x : xs)
+      curve.points.emplace_back(std::stod(x), spreadOf(samplesOf(name, x)).median);
+  }
+  return plot;
+}
+
 Table drawsTable(const Results& results, const std::string& size, std::string corner,
                  const std::vector<std::string>& rows, const std::vector<std::string>& scenes) {
   return tableOf("Draws, primitives of the median frame at " + size, std::move(corner), rows,

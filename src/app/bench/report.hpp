@@ -37,6 +37,12 @@ struct LinePlot {
   std::vector<Curve> curves{};
 };
 
+// Gives `plot` a curve of medians for each name; xs are numbers.
+LinePlot medianPlot(LinePlot plot, const std::vector<std::string>& names,
+                    const std::vector<std::string>& xs,
+                    const std::function<std::vector<double>(const std::string& name,
+                                                            const std::string& x)>& samplesOf);
+
 // A bar of parts for each row.
 struct BarPlot {
   std::string title{}, unit{};

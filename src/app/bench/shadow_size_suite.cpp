@@ -107,30 +107,12 @@ Table ratioTable(const Results& results, const std::vector<std::string>& sizes) 
                  });
 }
 
-LinePlot plotOf(const Results& results, std::string title, std::string yLabel, bool ofError) {
-  LinePlot plot{.title = std::move(title),
-                .xLabel = "px, side of the map",
-                .yLabel = std::move(yLabel),
-                .logarithmic = true};
-  for (const std::string& method : kMethods) {
-    Curve& curve = plot.curves.emplace_back(Curve{.name = method});
-    for (const std::string& size : mapSizes(results)) {
-      const Name name{method, size};
-      const auto values = ofError ? results.samples(name, "flip") : results.times(name);
-      curve.points.emplace_back(std::stod(size), spreadOf(values).median);
-    }
-  }
-  return plot;
-}
-
 std::vector<Block> report(const Results& results) {
   std::vector<Block> blocks;
   blocks.emplace_back(
       "Time of ShadowMaps and ShadowedLighting together in ms, and the distance of the picture "
-      "from "
-      "a traced one with the same hard shadows of the sun; all surfaces are plain. Over all "
-      "cameras. "
-      "A map of cascades is one of four.");
+      "from a traced one with the same hard shadows of the sun; all surfaces are plain. Over all "
+      "cameras. A map of cascades is one of four.");
   const std::vector<std::string> sizes = mapSizes(results), scenes = results.parts(2);
   blocks.emplace_back(tableOf("ms, all scenes: median (quartiles)", "size", sizes, kMethods,
                               [&](const std::string& size, const std::string& method) {
@@ -152,8 +134,23 @@ std::vector<Block> report(const Results& results) {
                                 return worstText(results.samples({method, size}, "psnr"),
                                                  &Spread::min);
                               }));
-  blocks.emplace_back(plotOf(results, "Time against size, all scenes", "ms", false));
-  blocks.emplace_back(plotOf(results, "Error against size, all scenes", "FLIP", true));
+  const std::string side = "px, side of the map";
+  blocks.emplace_back(medianPlot({.title = "Time against size, all scenes",
+                                  .xLabel = side,
+                                  .yLabel = "ms",
+                                  .logarithmic = true},
+                                 kMethods, sizes,
+                                 [&](const std::string& method, const std::string& size) {
+                                   return results.times({method, size});
+                                 }));
+  blocks.emplace_back(medianPlot({.title = "Error against size, all scenes",
+                                  .xLabel = side,
+                                  .yLabel = "FLIP",
+                                  .logarithmic = true},
+                                 kMethods, sizes,
+                                 [&](const std::string& method, const std::string& size) {
+                                   return results.samples({method, size}, "flip");
+                                 }));
   return blocks;
 }
 

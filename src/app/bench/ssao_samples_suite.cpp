@@ -127,22 +127,6 @@ Table errorsAtTheSameTime(const Results& results) {
       });
 }
 
-LinePlot plotOf(const Results& results, std::string title, std::string yLabel, bool ofError) {
-  LinePlot plot{.title = std::move(title),
-                .xLabel = "samples",
-                .yLabel = std::move(yLabel),
-                .logarithmic = ofError};
-  for (const Method& method : kMethods) {
-    Curve& curve = plot.curves.emplace_back(Curve{.name = method.label()});
-    for (const std::string& samples : kSamples) {
-      const Name name{method.label(), samples};
-      const auto values = ofError ? results.samples(name, "mse") : results.times(name);
-      curve.points.emplace_back(std::stod(samples), spreadOf(values).median);
-    }
-  }
-  return plot;
-}
-
 LinePlot errorOverTimePlot(const Results& results) {
   LinePlot plot{.title = "Error against time, median of all scenes",
                 .xLabel = "ms",
@@ -157,10 +141,9 @@ std::vector<Block> report(const Results& results) {
   std::vector<Block> blocks;
   blocks.emplace_back(
       fmt::format("Time of ScreenSpaceAo in ms, and the mean squared difference of its visibility "
-                  "from one that "
-                  "is traced with {} directions a pixel from the same surfaces, all of them plain. "
-                  "The radius is "
-                  "{} of the distance at which things are seen. Over all cameras.",
+                  "from one that is traced with {} directions a pixel from the same surfaces, all "
+                  "of them plain. The radius is {} of the distance at which things are seen. Over "
+                  "all cameras.",
                   kTraced, kRadius.share));
   std::vector<std::string> labels;
   std::vector<std::string> names;
@@ -189,8 +172,16 @@ std::vector<Block> report(const Results& results) {
                                 return errorText(results, {method->label(blur), kSuffice});
                               }));
   blocks.emplace_back(errorsAtTheSameTime(results));
-  blocks.emplace_back(plotOf(results, "Time against samples", "ms", false));
-  blocks.emplace_back(plotOf(results, "Error against samples", "MSE", true));
+  blocks.emplace_back(
+      medianPlot({.title = "Time against samples", .xLabel = "samples", .yLabel = "ms"}, labels,
+                 kSamples, [&](const std::string& label, const std::string& samples) {
+                   return results.times({label, samples});
+                 }));
+  blocks.emplace_back(medianPlot(
+      {.title = "Error against samples", .xLabel = "samples", .yLabel = "MSE", .logarithmic = true},
+      labels, kSamples, [&](const std::string& label, const std::string& samples) {
+        return results.samples({label, samples}, "mse");
+      }));
   blocks.emplace_back(errorOverTimePlot(results));
   return blocks;
 }

@@ -1,9 +1,7 @@
 // Lighting: shades the G-buffer with all lights, one full-screen draw.
 #pragma once
 
-#include "render/gbuffer_inputs.hpp"
-#include "render/light_list.hpp"
-#include "render/view_data.hpp"
+#include "render/deferred_shading.hpp"
 
 namespace lucerna::passes {
 
@@ -12,19 +10,14 @@ class Lighting {
   struct Params {
     float ambient = 1.f;
   };
-  struct Ports : render::GBufferInputs {
-    graph::In<render::ViewData> view;
-    graph::In<render::LightList> lights;
-    graph::In<gpu::Texture> ambientVisibility;
-    graph::InOut<gpu::Texture> color;
-  };
+  using Ports = render::DeferredPorts;
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit Lighting(gpu::Device& device);
+  explicit Lighting(gpu::Device& device) : program_(device, "passes/lighting/lighting.frag") {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr program_, occludedProgram_;  // without and with ambientVisibility
+  render::DeferredProgram program_;
 };
 
 }  // namespace lucerna::passes

@@ -1,6 +1,6 @@
 // Darkens a pixel of an object that was drawn by its own shader: nobody knows how that uses the light,
 // so the picture loses the share that a white Phong surface in its place would lose.
-//   AMBIENT_VISIBILITY  a texture says how much of the ambient light arrives
+//   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
 // variant: AMBIENT_VISIBILITY=1
 #include "passes/shadowed_lighting/visibility.glsl"
 

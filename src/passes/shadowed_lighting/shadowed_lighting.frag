@@ -1,5 +1,5 @@
 // Shades one pixel of the G-buffer with shadows.
-//   AMBIENT_VISIBILITY  a texture says how much of the ambient light arrives
+//   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
 // variant: AMBIENT_VISIBILITY=1
 #define LIGHT_VISIBILITY
 #include "passes/shadowed_lighting/visibility.glsl"

@@ -1,11 +1,9 @@
 // ShadowedLighting: Lighting in which shadow maps take away the light that they block.
 #pragma once
 
-#include "render/gbuffer_inputs.hpp"
+#include "render/deferred_shading.hpp"
 #include "render/gpu_scene.hpp"
-#include "render/light_list.hpp"
 #include "render/shadow_maps.hpp"
-#include "render/view_data.hpp"
 
 namespace lucerna::passes {
 
@@ -18,13 +16,9 @@ class ShadowedLighting {
     float bias = 0.f;  // m
     float normalBias = 1.f;
   };
-  struct Ports : render::GBufferInputs {
+  struct Ports : render::DeferredPorts {
     graph::In<render::GpuScene> scene;
-    graph::In<render::ViewData> view;
-    graph::In<render::LightList> lights;
     graph::In<render::ShadowMaps> shadowMaps;
-    graph::In<gpu::Texture> ambientVisibility;
-    graph::InOut<gpu::Texture> color;
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
@@ -32,11 +26,7 @@ class ShadowedLighting {
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  // Without and with ambientVisibility.
-  struct Programs {
-    gpu::ProgramPtr plain{}, occluded{};
-  };
-  Programs lighting_, darkening_;
+  render::DeferredProgram lighting_, darkening_;
   render::ShadowMaps noMaps_;
 };
 

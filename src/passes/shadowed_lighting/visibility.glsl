@@ -3,10 +3,6 @@
 #include "render/shading.glsl"
 #include "render/shadows.glsl"
 
-#ifdef AMBIENT_VISIBILITY
-uniform sampler2D ambientVisibility;
-#endif
-
 vec3 positionWOf(ivec2 pixel) {
   float reversedDepth = max(texelFetch(depth, pixel, 0).r, 1e-30);
   return worldOfView(positionVOf(ndcOfPixel(vec2(pixel) + 0.5), reversedDepth));
@@ -39,9 +35,6 @@ vec3 planeNormalW;
 Surface shadowedSurface(ivec2 pixel) {
   Surface s = readSurface(pixel);
   planeNormalW = trueNormalW(s, pixel);
-#ifdef AMBIENT_VISIBILITY
-  s.occlusion *= texelFetch(ambientVisibility, pixel, 0).r;
-#endif
   return s;
 }
 
