@@ -145,9 +145,21 @@ Result<std::vector<FrameWriter::Part>> FrameWriter::read(Session& session, int v
   return parts;
 }
 
+Status FrameWriter::checkPart(const Part& part, uvec2 size) {
+  const Image& image = part.layer.image;
+  if (uvec2(image.width(), image.height()) == size) return {};
+  return error(
+      ErrorKind::Pipeline,
+      "the pipeline's {} is {} x {} px where the picture is {} x {}; let the row that "
+      "writes it do so at full size (a Fullscreen row: outputScale=1), or add one that does",
+      part.kind && !part.layer.name.empty() ? "layer '" + part.layer.name + "'" : "output",
+      image.width(), image.height(), size.x, size.y);
+}
+
 Status FrameWriter::write(Session& session, int view, const gpu::Texture& output) {
   const auto& [eye, tile] = session.plan.places[static_cast<std::size_t>(view)];
   LUCERNA_TRY(parts, read(session, view, output));
+  for (const Part& part : parts) LUCERNA_TRY_VOID(checkPart(part, session.plan.window));
   if (view == 0) eyes_.assign(static_cast<std::size_t>(session.plan.eyes()), {});
   std::vector<Part>& whole = eyes_[static_cast<std::size_t>(eye)];
   if (whole.empty())

@@ -35,6 +35,7 @@ class FrameWriter {
     std::optional<LayerKind> kind;  // none: the encoded picture
     ExrLayer layer;
   };
+  static Status checkPart(const Part& part, uvec2 size);
   Status openVideo(const OutputSettings& output, const RenderSettings& settings);
   Result<std::vector<Part>> read(Session& session, int view, const gpu::Texture& output) const;
   Image finished(std::size_t part, const RenderSettings& settings);

@@ -25,23 +25,28 @@ class SessionTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  // Renders settings_ into `name` and returns the path of the first frame.
+  // Renders settings_ by `writer`; no medium message of GL is expected.
+  Status renderBy(FrameWriter& writer) {
+    auto session = openSession(settings_, writer.layers());
+    if (!session) return session.error();
+    for (std::uint64_t i = 0; i < settings_.frames; ++i)
+      LUCERNA_TRY_VOID(
+          runFrame(**session, nullptr, [&](Session& s, int view, const gpu::Texture& texture) {
+            return writer.write(s, view, texture);
+          }));
+    EXPECT_EQ((*session)->glMessages, 0);
+    return {};
+  }
+
+  // Into `name`; returns the path of the first frame.
   std::string render(const std::string& name, std::vector<std::string> layers = {},
                      std::optional<ComponentType> type = {}) {
     const OutputSettings output{
         .path = folder_ / name, .layers = std::move(layers), .exrType = type};
     auto writer = FrameWriter::create(output, settings_);
     EXPECT_TRUE(writer) << writer.error().message;
-    auto session = openSession(settings_, writer->layers());
-    EXPECT_TRUE(session) << session.error().message;
-    for (std::uint64_t i = 0; i < settings_.frames; ++i) {
-      const Status status =
-          runFrame(**session, nullptr, [&](Session& s, int view, const gpu::Texture& texture) {
-            return writer->write(s, view, texture);
-          });
-      EXPECT_TRUE(status) << status.error().message;
-    }
-    EXPECT_EQ((*session)->glMessages, 0);
+    const Status status = renderBy(*writer);
+    EXPECT_TRUE(status) << status.error().message;
     return writer->written().empty() ? "" : writer->written().front().string();
   }
 
@@ -58,6 +63,24 @@ TEST_F(SessionTest, WritesAPictureOfTheOutputsSizeAtAnyScale) {
     EXPECT_EQ(image->height(), 54);
     EXPECT_EQ(image->type(), ComponentType::U8);
   }
+}
+
+TEST_F(SessionTest, AnOutputOfAnotherSizeIsRefusedAndNothingWritten) {
+  ASSERT_TRUE(writeText(folder_ / "half.frag",
+                        "layout(location = 0) out vec4 made;\nvoid main() { made = vec4(1); }\n"));
+  ASSERT_TRUE(writeText(
+      folder_ / "half.js",
+      "pass('Fullscreen', {shader: 'half.frag', format: 'Rgba8Unorm', outputScale: 0.5});\n"));
+  settings_.pipeline = folder_ / "half.js";
+  const OutputSettings output{.path = folder_ / "half.png", .layers = {}, .exrType = {}};
+  auto writer = FrameWriter::create(output, settings_);
+  ASSERT_TRUE(writer) << writer.error().message;
+  const Status status = renderBy(*writer);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
+  EXPECT_THAT(status.error().message, testing::HasSubstr("48 x 27 px"));
+  EXPECT_THAT(status.error().message, testing::HasSubstr("outputScale"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "half.png"));
 }
 
 TEST_F(SessionTest, TheSameSettingsGiveTheSameBytes) {

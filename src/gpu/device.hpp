@@ -149,7 +149,9 @@ class Device {
   // "vendor | renderer | version", and named driver workarounds in force (docs/dev/drivers.md).
   std::string description() const;
 
-  Texture createTexture(const TextureDesc& desc, std::string label);
+  // remedy: what a user may do where it does not fit (OutOfMemory).
+  Texture createTexture(const TextureDesc& desc, std::string label,
+                        std::string_view remedy = kRenderSmaller);
   // Level 0 of one layer from pixels that fit the format (U8 for unorm and sRGB, F32/Half for
   // float; integer formats take components of their own width, 32-bit ones as the bits of F32).
   // Image rows are top first, and so is texture row 0: v = 0 is the top, as glTF has it.

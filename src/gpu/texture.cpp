@@ -67,11 +67,11 @@ std::uint64_t TextureDesc::bytes() const {
          static_cast<std::uint64_t>(info(format).bytes);
 }
 
-OutOfMemory::OutOfMemory(const std::string& label, const TextureDesc& desc)
+OutOfMemory::OutOfMemory(const std::string& label, const TextureDesc& desc, std::string_view remedy)
     : std::runtime_error(fmt::format(
-          "the driver has no memory for the texture '{}' of {} x {} pixels, {:.0f} MiB; render "
-          "smaller (--size, --scale) or close other programs",
-          label, desc.width, desc.height, static_cast<double>(desc.bytes()) / (1 << 20))) {}
+          "the driver has no memory for the texture '{}' of {} x {}{} pixels, {:.0f} MiB; {}",
+          label, desc.width, desc.height, desc.layers > 1 ? fmt::format(" x {}", desc.layers) : "",
+          static_cast<double>(desc.bytes()) / (1 << 20), remedy)) {}
 
 void Texture::swap(Texture& other) noexcept {
   std::swap(device_, other.device_);
@@ -103,7 +103,8 @@ void Device::Impl::forgetTexture(GLuint texture) {
   });
 }
 
-Texture Device::createTexture(const TextureDesc& wanted, std::string label) {
+Texture Device::createTexture(const TextureDesc& wanted, std::string label,
+                              std::string_view remedy) {
   TextureDesc desc = wanted;
   if (desc.kind == TextureKind::Cube) desc.layers = 6;
   if (desc.levels == 0) desc.levels = fullChain(desc);
@@ -123,7 +124,7 @@ Texture Device::createTexture(const TextureDesc& wanted, std::string label) {
     glTextureStorage2D(texture.id_, desc.levels, format, desc.width, desc.height);
   ++impl_->objects.textures;
   impl_->objects.textureBytes += desc.bytes();
-  if (glGetError() == GL_OUT_OF_MEMORY) throw OutOfMemory(texture.label_, desc);
+  if (glGetError() == GL_OUT_OF_MEMORY) throw OutOfMemory(texture.label_, desc, remedy);
   impl_->setLabel(GL_TEXTURE, texture.id_, texture.label_);
   return texture;
 }

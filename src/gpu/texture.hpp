@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 #include "core/math/math.hpp"
 #include "gpu/format.hpp"
@@ -27,11 +28,13 @@ struct TextureDesc {
 
 // What createTexture() throws where the driver has no memory left: unlike other errors it can
 // happen at any texture, and nobody below main() can do anything about it. what() is a whole
-// sentence.
+// sentence, which ends with what a user may do.
 class OutOfMemory : public std::runtime_error {
  public:
-  OutOfMemory(const std::string& label, const TextureDesc& desc);
+  OutOfMemory(const std::string& label, const TextureDesc& desc, std::string_view remedy);
 };
+inline constexpr std::string_view kRenderSmaller =
+    "render smaller (--size, --scale) or close other programs";
 
 class Texture {
  public:

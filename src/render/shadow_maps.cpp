@@ -23,7 +23,9 @@ void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, int side
                                   .width = side,
                                   .height = side,
                                   .layers = layers},
-                                 local ? "local shadow maps" : "directional shadow maps");
+                                 local ? "local shadow maps" : "directional shadow maps",
+                                 local ? "set ShadowMaps.localSize or localLights lower"
+                                       : "set ShadowMaps.size or cascades lower");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ import unittest
 from pages_test import Page
 
 PROGRAM = ""
-SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size"]
+SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size", "depth-of-field"]
 
 
 def small(scene="cornell", cameras=1, rounds=1):
@@ -120,6 +120,14 @@ class BenchTest(unittest.TestCase):
         coarse, fine = (runs[f"shadow-size/uniform/{n}/atrium_median"] for n in ("512", "2048"))
         self.assertLessEqual(fine["flip"], coarse["flip"])
         self.assertGreater(fine["psnr"], 20)
+
+    def test_depth_of_field_has_its_error(self):
+        runs, text = self.measured("depth-of-field", *small("atrium", cameras=2))
+        none, gather = (runs[f"depth-of-field/{n}/atrium/focus before_median"] for n in ("none/-", "gather/8"))
+        self.assertLess(gather["flip"], none["flip"])
+        self.assertGreater(gather["psnr"], none["psnr"])
+        self.assertLess(none["sharp_flip"], none["flip"])
+        self.assertIn("| separable, scale 0.75 |", text)
 
     def test_what_does_not_come_with_lucerna_is_skipped_with_a_word(self):
         arguments = ["forward", "--quick", "--size", "16x12", "--cameras", 1, "--rounds", 1]

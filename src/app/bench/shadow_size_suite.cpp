@@ -23,13 +23,6 @@ Chain chainOf(const std::string& method, const std::string& size) {
            {"ToneMap", {"operator=linear"}}}};
 }
 
-// As a screen shows it: encoded bytes, brighter than white cut off.
-Image shown(const Image& linear) {
-  Image encoded = linear;
-  for (float& value : encoded.as<float>()) value = srgbFromLinear(value);
-  return converted(converted(encoded, ComponentType::U8, 3), ComponentType::F32, 3);
-}
-
 // Shadows are hard, for the sun has no size, and exact: one ray decides a pixel.
 Result<Image> traced(const Run& run) {
   const uvec2 size = run.extent.sizes.front();
@@ -40,7 +33,7 @@ Result<Image> traced(const Run& run) {
                                                  .primary = trace::Primary::Centre,
                                                  .mirrors = 0});
   if (picture.cancelled) return error(ErrorKind::Cancelled, "cancelled while tracing");
-  return shown(picture.color);
+  return asShown(picture.color);
 }
 
 // ShadowMaps and ShadowedLighting together: a better map may cost in either.
@@ -129,11 +122,11 @@ std::vector<Block> report(const Results& results) {
                                 kMethods, [&](const std::string& size, const std::string& method) {
                                   return worstText(results.samples({method, size, scene}, "flip"));
                                 }));
-  blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (worst camera)", "size", sizes,
-                              kMethods, [&](const std::string& size, const std::string& method) {
-                                return worstText(results.samples({method, size}, "psnr"),
-                                                 &Spread::min);
-                              }));
+  blocks.emplace_back(
+      tableOf("PSNR in dB, all scenes: median (worst camera)", "size", sizes, kMethods,
+              [&](const std::string& size, const std::string& method) {
+                return worstText(results.samples({method, size}, "psnr"), &Spread::min);
+              }));
   const std::string side = "px, side of the map";
   blocks.emplace_back(medianPlot({.title = "Time against size, all scenes",
                                   .xLabel = side,

@@ -140,8 +140,8 @@ std::vector<std::size_t> turnOrder(std::size_t count, std::size_t round) {
 }
 
 std::span<const Suite> suites() {
-  static const std::vector<Suite> all{passesSuite(), forwardSuite(), sraaSuite(),
-                                      ssaoSamplesSuite(), shadowSizeSuite()};
+  static const std::vector<Suite> all{passesSuite(),      forwardSuite(),    sraaSuite(),
+                                      ssaoSamplesSuite(), shadowSizeSuite(), depthOfFieldSuite()};
   return all;
 }
 
@@ -205,6 +205,12 @@ Result<std::vector<std::string>> writeResults(const std::string& folder, const s
 
 std::string sizeName(uvec2 size) {
   return fmt::format("{}x{}", size.x, size.y);
+}
+
+Image asShown(const Image& linear) {
+  Image encoded = linear;
+  for (float& value : encoded.as<float>()) value = srgbFromLinear(value);
+  return converted(converted(encoded, ComponentType::U8, 3), ComponentType::F32, 3);
 }
 
 // TestScene, Forza, Crytek Sponza, Conference with the dragon, Fabia2; and two of ours.

@@ -123,9 +123,12 @@ Suite forwardSuite();
 Suite sraaSuite();
 Suite ssaoSamplesSuite();
 Suite shadowSizeSuite();
+Suite depthOfFieldSuite();
 
 // "800x600"
 std::string sizeName(uvec2 size);
+// As a screen shows linear colour: encoded to bytes, brighter than white cut off; F32.
+Image asShown(const Image& linear);
 // The scenes that stand for the thesis' five.
 std::vector<SceneChoice> thesisScenes();
 

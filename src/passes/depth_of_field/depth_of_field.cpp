@@ -169,7 +169,9 @@ void DepthOfField::gather(gpu::Device& device, const Inputs& in) {
   makeLayer(device, in, -1.f, near_);
   makeLayer(device, in, 1.f, far_);
   behindProgram_->set("lens", in.lens);
-  draw(device, behindProgram_, {&behind_}, {{"color", *ports.input}, {"depth", *ports.depth}});
+  behindProgram_->set("steps", in.params.steps);
+  draw(device, behindProgram_, {&behind_, &behindWide_},
+       {{"color", *ports.input}, {"depth", *ports.depth}});
   gatherProgram_->set("lens", in.lens);
   gatherProgram_->set("steps", in.params.steps);
   gatherProgram_->set("uvOfPixel", 1.f / vec2(4 * sizeOf(behind_)));
@@ -181,21 +183,24 @@ void DepthOfField::gather(gpu::Device& device, const Inputs& in) {
         {"nearCover", near_.cover},
         {"farLayer", far_.light},
         {"farCover", far_.cover},
-        {"behind", behind_, gpu::kLinear}});
+        {"behind", behind_, gpu::kLinear},
+        {"behindWide", behindWide_, gpu::kLinear}});
 }
 
 void DepthOfField::fitGather(gpu::Device& device, ivec2 size) {
   for (Texture* texture : {&tiles_, &largest_})
-    fit(device, *texture, Format::Rg32Float, (size + kTile - 1) / kTile);
+    fit(device, *texture, Format::Rgba32Float, (size + kTile - 1) / kTile);
   for (Layer* layer : {&along_, &near_, &far_}) {
     fit(device, layer->light, Format::Rgba16Float, size);
     fit(device, layer->cover, Format::R8Unorm, size);
   }
-  fit(device, behind_, Format::Rgba16Float, (size + 3) / 4);
+  for (Texture* texture : {&behind_, &behindWide_})
+    fit(device, *texture, Format::Rgba16Float, (size + 3) / 4);
 }
 
 void DepthOfField::findLargest(gpu::Device& device, const Inputs& in) {
   tilesProgram_->set("lens", in.lens);
+  tilesProgram_->set("steps", in.params.steps);
   draw(device, tilesProgram_, {&tiles_}, {{"depth", *in.ports.depth}});
   spreadProgram_->set("reach", tilesAcross(in.params.maximumRadius));
   draw(device, spreadProgram_, {&largest_}, {{"tiles", tiles_}});

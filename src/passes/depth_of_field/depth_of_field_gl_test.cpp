@@ -219,6 +219,37 @@ TEST(DepthOfFieldGather, ALampBecomesAnEvenDisc) {
   }
 }
 
+// So does a lamp with a narrow circle beside something with a wide one, which is read in strides:
+// before the plane in focus, a card that is too far to the right to hide it; behind it, the sky.
+TEST(DepthOfFieldGather, ANarrowCircleBesideAWideOneIsNoLessEven) {
+  for (const auto& [distance, lens] : {std::pair{2.3f, 0.3f}, {3.6f, 0.5f}}) {
+    SCOPED_TRACE(distance);
+    scene::Scene scene = testing::emptyScene();
+    const float size = 0.01f * distance;
+    addCard(scene, distance, vec2(-size), vec2(size), vec3(1e3f));
+    if (distance < 3.f) {
+      addCard(scene, 3.f, {-50, -50}, {50, 50}, vec3(0));
+      addCard(scene, 1.f, {0.25f, -5}, {5, 5}, vec3(0));
+      ASSERT_GT(circleRadius(scene.cameras[0], lens, 3.f, 1.f), 9.f) << "wide";
+    }
+    const Image before = sharp(scene);
+    const Image after = blurred(scene, {{"lensRadius", lens}, {"focusDistance", 3.0}});
+    EXPECT_NEAR(sumOf(after) / sumOf(before), 1., 0.1);
+    const float radius = circleRadius(scene.cameras[0], lens, 3.f, distance);
+    ASSERT_LT(radius, 8.f) << "narrow";
+    float least = 1e9f, most = 0.f;
+    for (int y = 0; y < after.height(); ++y)
+      for (int x = 0; x < after.width(); ++x) {
+        const float away = glm::length(vec2(x, y) + 0.5f - 0.5f * vec2(kSize));
+        const float value = after.pixel<float>(x, y)[0];
+        if (away < 0.5f * radius) least = std::min(least, value);
+        EXPECT_TRUE(away < radius + 4.f || value == 0.f || x > 90) << x << ", " << y;
+        most = std::max(most, value);
+      }
+    EXPECT_LT(most, 1.3f * least);
+  }
+}
+
 TEST_P(DepthOfField, StaysFiniteWhereItIsVeryBright) {
   scene::Scene scene = edge(8.f);
   for (scene::Material& material : scene.materials) material.emissive *= 1e4f;

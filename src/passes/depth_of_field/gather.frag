@@ -1,15 +1,17 @@
 // The picture through a thin lens: each pixel gathers from the circles that reach it. First its own surface and
-// what is seen past that, then what lies in front and is blurred over it.
+// what is seen past that, then what lies in front and is blurred over it. Narrow circles are gathered from the picture,
+// pixel by pixel, wide ones in strides from a layer that is smooth enough for that.
 #include "passes/depth_of_field/grid.glsl"
 
 uniform sampler2D color;
 uniform sampler2D depth;
-uniform sampler2D farLayer;   // smoothed for strides of more than a pixel: rgb; a: radius of its circle, px
+uniform sampler2D farLayer;   // of wide circles, smoothed for the widest stride: rgb; a: radius of its circle, px
 uniform sampler2D farCover;   // share of the pixel whose light it is
 uniform sampler2D nearLayer;  // the same of what is before the plane in focus
 uniform sampler2D nearCover;
-uniform sampler2D behind;  // rgb times a: what is not before it
-uniform vec2 uvOfPixel;    // in `behind`
+uniform sampler2D behind;      // rgb times a: what is not before it
+uniform sampler2D behindWide;  // and what is, but in a narrow circle
+uniform vec2 uvOfPixel;        // in these two
 
 layout(location = 0) out vec4 blurred;
 
@@ -21,28 +23,24 @@ struct Light {
   float cover;   // share of the pixel
 };
 
-Light fromPicture(ivec2 tap, float side) {
+// What of the picture counts. Known where a loop is compiled, so that the others are not read.
+const int kAll = 0, kNarrow = 1, kWide = 2;
+
+Light lightAt(vec2 offset, float side, int which) {
+  ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
+  if (which == kWide) {
+    vec4 found = side < 0.0 ? texelFetch(nearLayer, tap, 0) : texelFetch(farLayer, tap, 0);
+    float cover = side < 0.0 ? texelFetch(nearCover, tap, 0).r : texelFetch(farCover, tap, 0).r;
+    return Light(found.rgb, found.a, cover);
+  }
   float radius = side * circleAt(texelFetch(depth, tap, 0).r);
-  return Light(finite(texelFetch(color, tap, 0).rgb), radius, radius > kSharp ? 1.0 : 0.0);
+  bool counts = radius > kSharp && (which == kAll || !isWide(radius));
+  return Light(finite(texelFetch(color, tap, 0).rgb), radius, counts ? 1.0 : 0.0);
 }
-Light fromLayer(ivec2 tap, sampler2D layer, sampler2D cover) {
-  vec4 found = texelFetch(layer, tap, 0);
-  return Light(found.rgb, found.a, texelFetch(cover, tap, 0).r);
-}
-// From the layer where it is read in strides: known when the shader is compiled, so that the other is not read.
-Light farLight(vec2 offset, bool strides) {
-  ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
-  if (strides) return fromLayer(tap, farLayer, farCover);
-  return fromPicture(tap, 1.0);
-}
-Light nearLight(vec2 offset, bool strides) {
-  ivec2 tap = clamp(pixel + ivec2(offset), ivec2(0), last);
-  if (strides) return fromLayer(tap, nearLayer, nearCover);
-  return fromPicture(tap, -1.0);
-}
-float ownRadius(float radius, float stride) {
-  return stride == 1.0 ? radius : unsmoothed(radius, widestStride(pixel));
-}
+Light farLight(vec2 offset, int which) { return lightAt(offset, 1.0, which); }
+Light nearLight(vec2 offset, int which) { return lightAt(offset, -1.0, which); }
+
+float ownRadius(float radius) { return isWide(radius) ? unsmoothed(radius, widestStride(pixel)) : radius; }
 
 // The taps of a circle: rows to both sides of its middle, and taps to both sides in each.
 int rowsOf(float radius, float stride) { return int(ceil(radius / stride - 0.5)); }
@@ -61,78 +59,115 @@ float share(float radius, float away, float stride) {
 const float kSame = 1.25, kOther = 1.75;
 float inFront(float radius, float other) { return smoothstep(kSame, kOther, radius / max(other, kSharp)); }
 
-// A surface behind the plane in focus. A tap counts as far as its own circle and the pixel's reach: what is
-// farther away is covered by what is nearer, and never spreads over it.
-vec3 farColor(float radius, bool strides) {
-  float stride = strideOf(radius), own = ownRadius(radius, stride);
+// Behind the plane in focus a tap counts as far as its own circle and the pixel's reach: what is farther away is
+// covered by what is nearer, and never spreads over it.
+vec4 farSum(float radius, float own, float stride, int which) {
   int rows = rowsOf(radius, stride);
   vec4 sum = vec4(0.0);
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
-      Light light = farLight(offset, strides);
+      Light light = farLight(offset, which);
       sum += light.cover * share(min(light.radius, own), length(offset), stride) * vec4(light.color, 1.0);
     }
+  }
+  return sum;
+}
+vec3 farColor(float radius) {
+  float own = ownRadius(radius);
+  vec4 sum;
+  if (isWide(radius)) {
+    sum = farSum(radius, own, strideOf(radius), kWide);
+    float narrow = largestNarrowAt(pixel).y;
+    if (narrow > kSharp) sum += farSum(narrow, own, 1.0, kNarrow);
+  } else {
+    sum = farSum(radius, own, 1.0, kAll);
   }
   return sum.a > 0.0 ? sum.rgb / sum.a : blurred.rgb;
 }
 
-// What a surface before the plane in focus hides is like what is nearest beside it.
-vec4 hiddenColor(float own, float stride, int rows, bool strides) {
+// A surface before it covers a share of the pixel's circle. Through the rest one sees what is behind.
+struct Surface {
+  vec4 light;  // that arrives from it: rgb times a
+  float open;  // the rest
+};
+Surface nearSurface(float radius, float own, float stride, int which) {
+  int rows = rowsOf(radius, stride);
+  Surface sum = Surface(vec4(0.0), 0.0);
+  for (int y = -rows; y <= rows; ++y) {
+    int taps = tapsOf(y, rows);
+    for (int x = -taps; x <= taps; ++x) {
+      vec2 offset = stride * vec2(x, y);
+      Light light = nearLight(offset, which);
+      float weight = share(own, length(offset), stride);
+      float notInFront = 1.0 - inFront(light.radius, own), further = inFront(own, light.radius);
+      float surface = light.cover * notInFront;
+      sum.light += share(light.radius, length(offset), stride) * (1.0 - further) * surface * vec4(light.color, 1.0);
+      // Narrow circles of the same surface are open as seen among the wide ones.
+      if (which == kNarrow) sum.open -= weight * (1.0 - further) * surface;
+      else sum.open += weight * (further * surface + notInFront * (1.0 - light.cover));
+    }
+  }
+  return sum;
+}
+
+// The picture does not have what a surface before the plane in focus hides, but it is like what is nearest beside it.
+vec4 hiddenColor(float radius, float own, float stride, int which) {
+  int rows = rowsOf(radius, stride);
   vec4 sum = vec4(0.0);
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
-      Light light = nearLight(offset, strides);
+      Light light = nearLight(offset, which);
       float closeness = 1.0 / (1.0 + dot(offset, offset));
       vec4 further = light.cover * inFront(own, light.radius) * vec4(light.color, 1.0);
-      if (light.cover < 1.0) further += textureLod(behind, (gl_FragCoord.xy + offset) * uvOfPixel, 0.0);
+      if (light.cover < 1.0) {
+        vec2 uv = (gl_FragCoord.xy + offset) * uvOfPixel;
+        further += which == kWide ? textureLod(behindWide, uv, 0.0) : textureLod(behind, uv, 0.0);
+      }
       sum += closeness * closeness * further;
     }
   }
   return sum;
 }
 
-// A surface before it. It leaves a share of the pixel's circle open to what is behind; the picture does not have
-// that where the surface is, but it is like what is nearest beside it.
-vec3 nearColor(float radius, bool strides) {
-  float stride = strideOf(radius), own = ownRadius(radius, stride);
-  int rows = rowsOf(min(kSame * radius, largestAt(pixel).x), stride);
-  vec4 sum = vec4(0.0);
-  float open = 0.0;
-  for (int y = -rows; y <= rows; ++y) {
-    int taps = tapsOf(y, rows);
-    for (int x = -taps; x <= taps; ++x) {
-      vec2 offset = stride * vec2(x, y);
-      Light light = nearLight(offset, strides);
-      float weight = share(own, length(offset), stride);
-      float notInFront = 1.0 - inFront(light.radius, own), further = inFront(own, light.radius);
-      float surface = light.cover * notInFront;
-      sum += share(light.radius, length(offset), stride) * (1.0 - further) * surface * vec4(light.color, 1.0);
-      open += weight * (further * surface + notInFront * (1.0 - light.cover));
+vec3 nearColor(float radius) {
+  float own = ownRadius(radius), stride = strideOf(radius);
+  float reach = min(kSame * radius, largestAt(pixel).x);
+  Surface surface;
+  if (isWide(radius)) {
+    surface = nearSurface(reach, own, stride, kWide);
+    float narrow = largestNarrowAt(pixel).x;
+    if (narrow > kSharp && own < kOther * narrow) {
+      Surface same = nearSurface(reach, own, 1.0, kNarrow);
+      surface.light += same.light;
+      surface.open = max(surface.open + same.open, 0.0);
     }
+  } else {
+    surface = nearSurface(reach, own, 1.0, kAll);
   }
-  vec3 color = sum.a > 0.0 ? sum.rgb / sum.a : blurred.rgb;
-  open /= max(open + sum.a, 1e-9);
+  vec3 color = surface.light.a > 0.0 ? surface.light.rgb / surface.light.a : blurred.rgb;
+  float open = surface.open / max(surface.open + surface.light.a, 1e-9);
   if (open > 0.004) {
-    vec4 hidden = hiddenColor(own, stride, rows, strides);
+    vec4 hidden;
+    if (isWide(radius)) hidden = hiddenColor(reach, own, stride, kWide);
+    else hidden = hiddenColor(reach, own, 1.0, kAll);
     if (hidden.a > 0.0) color = mix(color, hidden.rgb / hidden.a, open);
   }
   return color;
 }
 
 // The light that what lies in front throws on the pixel; a: how much of it that covers.
-vec4 front(float radius, float own, bool strides) {
-  float stride = strideOf(radius);
+vec4 front(float radius, float own, float stride, int which) {
   int rows = rowsOf(radius, stride);
   vec4 sum = vec4(0.0);
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
-      Light light = nearLight(offset, strides);
+      Light light = nearLight(offset, which);
       float weight = light.cover * inFront(light.radius, own) * share(light.radius, length(offset), stride);
       sum += weight * vec4(light.color, 1.0);
     }
@@ -146,21 +181,12 @@ void main() {
   blurred = texelFetch(color, pixel, 0);
   blurred.rgb = finite(blurred.rgb);
   float circle = circleAt(texelFetch(depth, pixel, 0).r);
-  float radius = abs(circle);
-  bool strides = strideOf(radius) > 1.0;
-  if (circle > kSharp) {
-    if (strides) blurred.rgb = farColor(radius, true);
-    else blurred.rgb = farColor(radius, false);
-  }
-  if (circle < -kSharp) {
-    if (strides) blurred.rgb = nearColor(radius, true);
-    else blurred.rgb = nearColor(radius, false);
-  }
+  if (circle > kSharp) blurred.rgb = farColor(circle);
+  if (circle < -kSharp) blurred.rgb = nearColor(-circle);
 
-  float own = max(-circle, kSharp), largestNear = largestAt(pixel).x;
-  if (largestNear <= kSame * own) return;
-  vec4 light;
-  if (strideOf(largestNear) > 1.0) light = front(largestNear, own, true);
-  else light = front(largestNear, own, false);
+  float own = max(-circle, kSharp), wide = largestAt(pixel).x, narrow = largestNarrowAt(pixel).x;
+  vec4 light = vec4(0.0);
+  if (isWide(wide) && wide > kSame * own) light += front(wide, own, strideOf(wide), kWide);
+  if (narrow > kSame * own) light += front(narrow, own, 1.0, kNarrow);
   if (light.a > 0.0) blurred.rgb = mix(blurred.rgb, light.rgb / light.a, min(1.05 * light.a, 1.0));
 }

@@ -1,15 +1,13 @@
-// The grid of pixels that is read of a circle: all of them of a small one, of a larger one every second, fourth,
-// ... along both axes. What is read so is smooth enough that nothing falls between.
+// The grid of pixels that is read of a circle: all of them of a narrow one, of a wide one every second, fourth, ...
+// along both axes. What is read so is smooth enough that nothing falls between.
 #include "passes/depth_of_field/circle.glsl"
 #include "passes/depth_of_field/tile.glsl"
+#include "passes/depth_of_field/width.glsl"
 
-uniform int steps;          // from the middle of a circle to its rim, at most
-uniform sampler2D largest;  // px: of each tile, the largest circles that may reach into it
-
-// px from one of them to the next.
-float strideOf(float radius) { return exp2(max(ceil(log2(max(radius, 1.0) / (float(steps) + 0.5))), 0.0)); }
+uniform sampler2D largest;  // px: of each tile, the largest circles that may reach into it: tiles.frag
 
 vec2 largestAt(ivec2 pixel) { return texelFetch(largest, pixel / kTile, 0).rg; }
+vec2 largestNarrowAt(ivec2 pixel) { return texelFetch(largest, pixel / kTile, 0).ba; }
 
 // The widest stride with which a pixel may be read: by a power of two, it is smooth enough for all others.
 float widestStride(ivec2 pixel) {

@@ -1,4 +1,4 @@
-// The light of all that lies on one side of the plane in focus, smoothed along one axis for being read in strides.
+// The light of wide circles on one side of the plane in focus, smoothed along one axis for being read in strides.
 // variant: OF_PICTURE=1
 #include "passes/depth_of_field/grid.glsl"
 
@@ -23,7 +23,7 @@ Light lightAt(ivec2 pixel) {
   vec4 found = texelFetch(source, pixel, 0);
 #ifdef OF_PICTURE
   float radius = side * circleAt(texelFetch(depth, pixel, 0).r);
-  return Light(finite(found.rgb), radius, radius > kSharp ? 1.0 : 0.0);
+  return Light(finite(found.rgb), radius, isWide(radius) ? 1.0 : 0.0);
 #else
   return Light(found.rgb, found.a, texelFetch(cover, pixel, 0).r);
 #endif
@@ -45,7 +45,7 @@ void main() {
   covered = 0.0;
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(source, 0) - 1;
   vec2 most = largestAt(pixel);
-  if ((side < 0.0 ? most.x : most.y) <= kSharp) return;
+  if (!isWide(side < 0.0 ? most.x : most.y)) return;
   float stride = widestStride(pixel);
   int reach = int(stride) - 1;
 

@@ -4,16 +4,16 @@
 uniform sampler2D tiles;
 uniform int reach;  // tiles to all sides
 
-layout(location = 0) out vec2 largest;  // px: of what is before the plane in focus, of what is behind it
+layout(location = 0) out vec4 largest;  // px, as in tiles.frag
 
 void main() {
   ivec2 tile = ivec2(gl_FragCoord.xy);
   ivec2 first = max(tile - reach, ivec2(0)), last = min(tile + reach, textureSize(tiles, 0) - 1);
-  largest = vec2(0.0);
+  largest = vec4(0.0);
   for (int y = first.y; y <= last.y; ++y)
     for (int x = first.x; x <= last.x; ++x) {
-      vec2 found = texelFetch(tiles, ivec2(x, y), 0).rg;
+      vec4 found = texelFetch(tiles, ivec2(x, y), 0);
       float between = length(vec2(max(abs(ivec2(x, y) - tile) - 1, 0) * kTile));
-      largest = max(largest, mix(vec2(0.0), found, greaterThan(found, vec2(between))));
+      largest = max(largest, mix(vec4(0.0), found, greaterThan(found, vec4(between))));
     }
 }

@@ -1,6 +1,7 @@
 #include "passes/mirrors/mirrors.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/log.hpp"
 #include "passes/mirrors/mirror_faces.hpp"
@@ -34,6 +35,11 @@ void Mirrors::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("depth", &Params::depth)
       .range(1, 16)
       .help("Most reflections of a ray: at 1 a mirror in a mirror shows its own material.");
+  d.param("budget", &Params::budget)
+      .range(1, 65536)
+      .help(
+          "Most pictures of reflections in a view. Those that are smallest on the screen are left "
+          "out: their mirrors show their own material.");
   d.param("ambient", &Params::ambient).range(0, 100).help("Factor on the scene's ambient light.");
   d.param("background", &Params::background)
       .range(0, 1000)
@@ -63,8 +69,11 @@ void Mirrors::execute(graph::PassContext& context, const Params& params, const P
   if (ports.drawLists->mirrors.objects.empty()) return;
   const ReflectionPlan plan =
       planReflections(*ports.scene, *ports.view, ports.drawLists->mirrors.objects,
-                      {.depth = params.depth, .backFaces = params.backFaces});
+                      {.depth = params.depth,
+                       .backFaces = params.backFaces,
+                       .budget = static_cast<std::size_t>(params.budget)});
   warnOfCurved(*ports.scene->scene, plan.curved);
+  warnOfBudget(plan.beyondBudget, params.budget);
   makeTargets(context.device, *ports.color, static_cast<std::size_t>(depthOf(plan.reflections)));
   Frame frame{.context = context, .params = params, .ports = ports};
   drawAll(frame, plan.reflections, *ports.view, {ports.color.get(), ports.depth.get()}, 0);
@@ -77,6 +86,14 @@ void Mirrors::warnOfCurved(const scene::Scene& scene, const std::vector<std::uin
           "'{}' has a reflectivity and is no planar mirror: its mesh has more than {} flat faces; "
           "it shows its own material",
           scene.nodes[scene.objects[index].node].name, kMostFaces);
+}
+
+void Mirrors::warnOfBudget(std::size_t beyond, int budget) {
+  if (beyond == 0 || std::exchange(warnedOfBudget_, true)) return;
+  log::warning(
+      "Mirrors: {} of the smallest reflections are left out, as more than {} would be drawn; see "
+      "its parameters budget and depth",
+      beyond, budget);
 }
 
 void Mirrors::makeTargets(gpu::Device& device, const gpu::Texture& color, std::size_t count) {

@@ -16,6 +16,7 @@ class Mirrors {
  public:
   struct Params {
     int depth = 4;
+    int budget = 256;  // pictures of reflections
     float ambient = 1.f, background = 1.f;
     bool backFaces = false;
   };
@@ -54,6 +55,7 @@ class Mirrors {
   };
 
   void warnOfCurved(const scene::Scene& scene, const std::vector<std::uint32_t>& objects);
+  void warnOfBudget(std::size_t beyond, int budget);
   void makeTargets(gpu::Device& device, const gpu::Texture& color, std::size_t count);
   void drawAll(Frame& frame, const std::vector<Reflection>& reflections,
                const render::ViewData& view, const Target& target, std::size_t depth);
@@ -67,6 +69,7 @@ class Mirrors {
   std::vector<OwnTarget> targets_;  // of each depth
   std::deque<Buffers> buffers_;
   std::set<std::uint32_t> warned_;
+  bool warnedOfBudget_ = false;
 };
 
 }  // namespace lucerna::passes

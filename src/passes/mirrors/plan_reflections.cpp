@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <queue>
 #include <utility>
 
 #include "passes/mirrors/mirror_faces.hpp"
@@ -62,9 +63,50 @@ class Planner {
     if (!gpuScene.bvh.nodes().empty()) boundsW_ = gpuScene.bvh.nodes()[0].box;
   }
 
+  ReflectionPlan plan(const render::ViewData& view, std::span<const std::uint32_t> mirrors) {
+    ReflectionPlan plan;
+    plan.reflections = reflectionsIn(view.view, view.window, mirrors);
+    wait(plan.reflections, view.view, 1);
+    for (; !waiting_.empty() && planned_ < settings_.budget; ++planned_) {
+      const Waiting next = waiting_.top();
+      waiting_.pop();
+      follow(*next.reflection, *next.view, next.depth);
+    }
+    plan.beyondBudget = waiting_.size();
+    for (; !waiting_.empty(); waiting_.pop()) waiting_.top().reflection->mirrors.clear();
+    dropWithoutMirrors(plan.reflections);
+    plan.curved = std::move(curved_);
+    return plan;
+  }
+
+ private:
+  struct Waiting {
+    Reflection* reflection;
+    const scene::View* view;  // in which it is seen
+    int depth;
+    std::size_t number;  // in the order in which they were found
+
+    bool operator<(const Waiting& other) const {
+      const auto pixels = [](const Waiting& w) {
+        return std::size_t(w.reflection->part.size.x) * w.reflection->part.size.y;
+      };
+      return std::pair(pixels(*this), other.number) < std::pair(pixels(other), number);
+    }
+  };
+
+  // They stay where they are from now on.
+  void wait(std::vector<Reflection>& reflections, const scene::View& view, int depth) {
+    for (Reflection& reflection : reflections) waiting_.push({&reflection, &view, depth, found_++});
+  }
+
+  static void dropWithoutMirrors(std::vector<Reflection>& reflections) {
+    std::erase_if(reflections, [](const Reflection& r) { return r.mirrors.empty(); });
+    for (Reflection& reflection : reflections) dropWithoutMirrors(reflection.within);
+  }
+
   // What mirrors show in a part of a view's picture.
-  std::vector<Reflection> plan(const scene::View& view, const render::Window& part,
-                               std::span<const std::uint32_t> mirrors, int depth) {
+  std::vector<Reflection> reflectionsIn(const scene::View& view, const render::Window& part,
+                                        std::span<const std::uint32_t> mirrors) {
     std::vector<Reflection> result;
     const Frustum frustum = render::frustumW(view, size_, part);
     for (const std::uint32_t object : mirrors)
@@ -73,13 +115,9 @@ class Planner {
         const render::Window seen = windowAround(face, view, frustum, part);
         if (!isEmpty(seen)) add(object, face, towards(view.eyeW(), face.planeW), seen, result);
       }
-    for (Reflection& reflection : result) follow(reflection, view, depth);
     return result;
   }
 
-  std::vector<std::uint32_t> curved;
-
- private:
   const std::vector<MirrorFace>& facesOf(std::uint32_t index) {
     const auto [entry, isNew] = faces_.try_emplace(index);
     if (!isNew) return entry->second;
@@ -89,7 +127,7 @@ class Planner {
     if (faces)
       entry->second = std::move(*faces);
     else
-      curved.push_back(index);
+      curved_.push_back(index);
     return entry->second;
   }
 
@@ -147,7 +185,7 @@ class Planner {
     reflection.part = around(reflection.part, seen);
   }
 
-  // What is seen in the mirrors, and in the mirrors there.
+  // What is seen in the mirrors; the mirrors there wait.
   void follow(Reflection& reflection, const scene::View& view, int depth) {
     reflection.view = reflectedView(view, reflection.planeW, reflection.clearance, boundsW_);
     gpuScene_.bvh.query(render::frustumW(reflection.view, size_, reflection.part),
@@ -158,7 +196,8 @@ class Planner {
       return isMirror(scene_.materials[scene_.objects[i].material]);
     });
     std::ranges::sort(mirrors);
-    reflection.within = plan(reflection.view, reflection.part, mirrors, depth + 1);
+    reflection.within = reflectionsIn(reflection.view, reflection.part, mirrors);
+    wait(reflection.within, reflection.view, depth + 1);
   }
 
   const render::GpuScene& gpuScene_;
@@ -167,6 +206,9 @@ class Planner {
   ReflectionSettings settings_;
   Aabb boundsW_;
   std::map<std::uint32_t, std::vector<MirrorFace>> faces_;  // of objects
+  std::vector<std::uint32_t> curved_;
+  std::priority_queue<Waiting> waiting_;
+  std::size_t found_ = 0, planned_ = 0;
 };
 
 }  // namespace
@@ -174,11 +216,7 @@ class Planner {
 ReflectionPlan planReflections(const render::GpuScene& gpuScene, const render::ViewData& view,
                                std::span<const std::uint32_t> mirrors,
                                const ReflectionSettings& settings) {
-  Planner planner(gpuScene, view.size, settings);
-  ReflectionPlan plan;
-  plan.reflections = planner.plan(view.view, view.window, mirrors, 1);
-  plan.curved = std::move(planner.curved);
-  return plan;
+  return Planner(gpuScene, view.size, settings).plan(view, mirrors);
 }
 
 }  // namespace lucerna::passes

@@ -26,10 +26,14 @@ struct Reflection {
 struct ReflectionSettings {
   int depth = 1;           // most reflections of a ray
   bool backFaces = false;  // single-sided mirrors reflect on both sides
+  // Most pictures: where mirrors face each other, their number grows with the power of the depth.
+  // A picture comes before all that are smaller on the screen, and after the one that shows it.
+  std::size_t budget = 256;
 };
 
 struct ReflectionPlan {
   std::vector<Reflection> reflections;
+  std::size_t beyondBudget = 0;  // pictures left out; what these would have shown is not counted
   std::vector<std::uint32_t> curved;  // mirrors with more than kMostFaces: they reflect nothing
 };
 

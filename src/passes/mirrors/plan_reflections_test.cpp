@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 
 #include "core/random.hpp"
 #include "passes/mirrors/mirror_faces.hpp"
@@ -141,7 +144,7 @@ class Plan : public ::testing::Test {
     return add(1, kOther, glm::scale(glm::translate(mat4(1.f), at), vec3(side)));
   }
 
-  ReflectionPlan plan(int depth = 1, bool backFaces = false) {
+  ReflectionPlan plan(int depth = 1, bool backFaces = false, std::size_t budget = 1000) {
     updateTransforms(scene_);
     std::vector<Aabb> boxes;
     std::vector<std::uint32_t> mirrors;
@@ -151,7 +154,8 @@ class Plan : public ::testing::Test {
     }
     gpuScene_.scene = &scene_;
     gpuScene_.bvh.build(boxes);
-    return planReflections(gpuScene_, view_, mirrors, {.depth = depth, .backFaces = backFaces});
+    return planReflections(gpuScene_, view_, mirrors,
+                           {.depth = depth, .backFaces = backFaces, .budget = budget});
   }
 
   scene::Scene scene_;
@@ -239,6 +243,36 @@ TEST_F(Plan, FollowsMirrorsInMirrorsToTheDepth) {
     }
     EXPECT_EQ(found, depth);
   }
+}
+
+// px of all pictures.
+std::vector<std::size_t> areasOf(const std::vector<Reflection>& reflections) {
+  std::vector<std::size_t> areas;
+  for (const Reflection& reflection : reflections) {
+    areas.push_back(std::size_t(reflection.part.size.x) * reflection.part.size.y);
+    std::ranges::copy(areasOf(reflection.within), std::back_inserter(areas));
+  }
+  std::ranges::sort(areas, std::greater());
+  return areas;
+}
+
+// A room of six mirrors.
+TEST_F(Plan, KeepsTheLargestPicturesOfABudget) {
+  for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
+                          vec3(0, 0, 1), vec3(0, 0, -1)})
+    addSheet(-2.f * axis, axis, 4.f);
+  const ReflectionPlan whole = plan(4);
+  EXPECT_EQ(whole.beyondBudget, 0);
+  const std::vector<std::size_t> areas = areasOf(whole.reflections);
+  ASSERT_GT(areas.size(), 30);
+  for (const std::size_t budget : {1, 20, 30}) {
+    const ReflectionPlan part = plan(4, false, budget);
+    EXPECT_EQ(areasOf(part.reflections),
+              std::vector(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(budget)));
+    EXPECT_GT(part.beyondBudget, 0);
+  }
+  const ReflectionPlan deep = plan(16, false, 200);
+  EXPECT_THAT(areasOf(deep.reflections), SizeIs(200));
 }
 
 TEST_F(Plan, NamesCurvedMirrors) {

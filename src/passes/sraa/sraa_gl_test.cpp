@@ -160,6 +160,29 @@ TEST_P(Sraa, UsesTheRealPositionsOfSamples) {
       }
 }
 
+// Two sheets at one depth that are turned apart: only normals show the edge between them.
+TEST_P(Sraa, TellsSurfacesOfOneDepthApartByTheirNormals) {
+  const std::vector<vec2> positions = samplePositions();
+  for (const float edge : {0.1f, 0.3f, 0.7f, 0.9f}) {
+    SCOPED_TRACE(edge);
+    scene::Scene scene = testing::emptyScene();
+    addSheet(scene, 0, -5.f, 0.f, 0.f, vec3(0.f));
+    addSheet(scene, 0, 8.f + edge, 0.f, 1e-4f, vec3(1.f));
+    scene.meshes.back().normals.assign(4, vec3(0.6f, 0, 0.8f));
+    updateTransforms(scene);
+    testing::SceneRenderer renderer(scene);
+    auto output = renderer.render(rows(), pixelView(), {kSide, kSide}, {"Sraa.color"});
+    ASSERT_TRUE(output) << output.error().message;
+    const float found = linearFromSrgb(
+        static_cast<float>(output->kept.at("Sraa.color").pixel<std::uint8_t>(8, 8)[0]) / 255.f);
+    const auto beyond =
+        std::ranges::count_if(positions, [&](const vec2& position) { return position.x > edge; });
+    const float unsmoothed = edge < 0.5f ? 1.f : 0.f;
+    EXPECT_NEAR(found, GetParam() == "depth" ? unsmoothed : static_cast<float>(beyond) / 4.f,
+                0.05f);
+  }
+}
+
 // A tilted white card before black.
 scene::Scene card() {
   scene::Scene scene = testing::emptyScene();
