@@ -127,7 +127,7 @@ Result<std::vector<FrameWriter::Part>> FrameWriter::read(Session& session, int v
                                                          const gpu::Texture& output) const {
   std::vector<Part> parts;
   if (!holdsLinear(name_.kind())) {
-    parts.push_back({{}, {"", {}, encodedRgb(session.device->download(output))}});
+    parts.push_back({{}, {"", {}, encodedRgb(session.device->download(output))}, ""});
     return parts;
   }
   const gpu::Texture* depth = nullptr;
@@ -140,7 +140,8 @@ Result<std::vector<FrameWriter::Part>> FrameWriter::read(Session& session, int v
       return error(ErrorKind::Pipeline, "{}: '{}' is not a texture, so it cannot be written",
                    name_.at(session.frame).string(), source.port);
     const scene::View& from = session.views[static_cast<std::size_t>(view)].view;
-    parts.push_back({source.kind, readLayer(*session.device, source.kind, *texture, depth, from)});
+    parts.push_back(
+        {source.kind, readLayer(*session.device, source.kind, *texture, depth, from), source.port});
   }
   return parts;
 }
@@ -150,10 +151,10 @@ Status FrameWriter::checkPart(const Part& part, uvec2 size) {
   if (uvec2(image.width(), image.height()) == size) return {};
   return error(
       ErrorKind::Pipeline,
-      "the pipeline's {} is {} x {} px where the picture is {} x {}; let the row that "
-      "writes it do so at full size (a Fullscreen row: outputScale=1), or add one that does",
-      part.kind && !part.layer.name.empty() ? "layer '" + part.layer.name + "'" : "output",
-      image.width(), image.height(), size.x, size.y);
+      "{} is {} x {} px where the picture is {} x {}; let the row write it at full size (a "
+      "Fullscreen row: outputScale=1), or add one that does",
+      part.port.empty() ? "the pipeline's output" : "'" + part.port + "'", image.width(),
+      image.height(), size.x, size.y);
 }
 
 Status FrameWriter::write(Session& session, int view, const gpu::Texture& output) {
@@ -175,7 +176,7 @@ Status FrameWriter::write(Session& session, int view, const gpu::Texture& output
 Image FrameWriter::finished(std::size_t part, const RenderSettings& settings) {
   std::vector<Image> eyes;
   for (std::vector<Part>& eye : eyes_) {
-    auto& [kind, layer] = eye[part];
+    auto& [kind, layer, port] = eye[part];
     eyes.push_back(kind ? resizedLayer(std::move(layer.image), *kind, settings.size)
                         : resizedSrgb(std::move(layer.image), settings.size));
   }
@@ -186,7 +187,7 @@ Status FrameWriter::writeFrame(const Session& session) {
   const std::filesystem::path path = name_.at(session.frame);
   std::vector<ExrLayer> layers;
   for (std::size_t i = 0; i < eyes_[0].size(); ++i) {
-    const auto& [kind, like] = eyes_[0][i];
+    const auto& [kind, like, port] = eyes_[0][i];
     ExrLayer layer{like.name, like.channels, finished(i, session.settings)};
     // A half reaches to 65504 with eleven bits: too little for distances.
     if (name_.kind() == OutputKind::Exr && kind != LayerKind::Depth &&

@@ -34,6 +34,7 @@ class FrameWriter {
   struct Part {
     std::optional<LayerKind> kind;  // none: the encoded picture
     ExrLayer layer;
+    std::string port = {};  // that it comes from, "Row.port"; "": the pipeline's output
   };
   static Status checkPart(const Part& part, uvec2 size);
   Status openVideo(const OutputSettings& output, const RenderSettings& settings);

@@ -204,6 +204,23 @@ TEST_F(TextureGlTest, ClearAndCopyReachAllLevels) {
   EXPECT_EQ(firstPixel(result), vec4(0.25f, 0.25f, 0.25f, 1.f));
 }
 
+TEST_F(TextureGlTest, WhatTheDriverHasNoMemoryForSaysWhatToDo) {
+  const TextureDesc desc{.kind = TextureKind::Array2D,
+                         .format = Format::Rgba32Float,
+                         .width = 16384,
+                         .height = 16384,
+                         .layers = 64};
+  try {
+    device().createTexture(desc, "maps", "set Maps.size lower");
+    FAIL() << "256 GiB";
+  } catch (const OutOfMemory& fault) {
+    EXPECT_THAT(fault.what(), ::testing::HasSubstr("'maps' of 16384 x 16384 x 64 pixels"));
+    EXPECT_THAT(fault.what(), ::testing::EndsWith("; set Maps.size lower"));
+  }
+  EXPECT_EQ(device().objectCounts().textures, 0);
+  device().takeDebugMessages();  // the driver's own word
+}
+
 TEST_F(TextureGlTest, MovesKeepCountsExact) {
   Texture a = target(Format::R8Unorm);
   const ObjectCounts one = device().objectCounts();

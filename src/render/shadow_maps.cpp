@@ -9,31 +9,30 @@ namespace lucerna::render {
 namespace {
 
 // Large enough for the layers that maps name; what is there already stays.
-void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, int side,
+void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, const ShadowMapSize& size,
          gpu::Texture& texture) {
-  int layers = 0;
+  int side = size.side, layers = 0;
   for (const ShadowMaps::Map& map : shadowMaps.maps)
     if (map.local == local) layers = std::max(layers, map.layer + 1);
   if (layers == 0 && texture) return;
   if (layers == 0) side = layers = 1;
   if (texture && texture.width() == side && texture.desc().layers >= layers) return;
   texture = {};  // before the new one is made
-  texture = device.createTexture({.kind = gpu::TextureKind::Array2D,
-                                  .format = gpu::Format::Depth32F,
-                                  .width = side,
-                                  .height = side,
-                                  .layers = layers},
-                                 local ? "local shadow maps" : "directional shadow maps",
-                                 local ? "set ShadowMaps.localSize or localLights lower"
-                                       : "set ShadowMaps.size or cascades lower");
+  texture =
+      device.createTexture({.kind = gpu::TextureKind::Array2D,
+                            .format = gpu::Format::Depth32F,
+                            .width = side,
+                            .height = side,
+                            .layers = layers},
+                           local ? "local shadow maps" : "directional shadow maps", size.remedy);
 }
 
 }  // namespace
 
-void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directionalSide,
-                       int localSide) {
-  fit(device, shadowMaps, false, directionalSide, shadowMaps.directional);
-  fit(device, shadowMaps, true, localSide, shadowMaps.local);
+void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
+                       const ShadowMapSize& directional, const ShadowMapSize& local) {
+  fit(device, shadowMaps, false, directional, shadowMaps.directional);
+  fit(device, shadowMaps, true, local, shadowMaps.local);
   std::vector<blocks::ShadowMapValues> maps;
   for (const ShadowMaps::Map& map : shadowMaps.maps) {
     const gpu::Texture& texture = map.local ? shadowMaps.local : shadowMaps.directional;

@@ -1,6 +1,7 @@
 // Shadow maps of many lights, as ShadowMaps makes them and render/shadows.glsl reads them.
 #pragma once
 
+#include <string_view>
 #include <vector>
 
 #include "gpu/device.hpp"
@@ -31,10 +32,14 @@ struct ShadowMaps {
 // the way that points are moved before they are compared.
 inline constexpr int kShadowMargin = 12;
 
-// Makes textures of the given sides (texels) and the blocks for maps and ofLight. What the textures
-// show is up to the caller.
-void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps, int directionalSide,
-                       int localSide);
+struct ShadowMapSize {
+  int side = 1;               // texels
+  std::string_view remedy{};  // what a user may do where maps of it do not fit (gpu::OutOfMemory)
+};
+// Makes textures of the given sizes and the blocks for maps and ofLight. What the textures show is
+// up to the caller.
+void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
+                       const ShadowMapSize& directional, const ShadowMapSize& local);
 
 void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool filtered);
 

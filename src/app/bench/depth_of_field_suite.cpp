@@ -5,6 +5,7 @@
 
 #include "app/bench/suite.hpp"
 #include "image/metrics.hpp"
+#include "passes/depth_of_field/depth_of_field.hpp"
 #include "trace/reference.hpp"
 
 namespace lucerna::app::bench {
@@ -20,7 +21,7 @@ const std::map<std::string, std::vector<std::string>> kSettings{
 const std::vector<std::string> kMethods{kNone, kSeparable, kGather};
 
 // Focused before and behind most of what is seen. What is infinitely far is blurred over a disc of
-// a thirteenth of the picture's height.
+// a tenth of the picture's height.
 struct Lens {
   std::string name;
   Length focus, radius;
@@ -114,11 +115,17 @@ Status measure(Run& run) {
 
 // The setting that the pass has by itself.
 std::string defaultOf(const std::string& method) {
-  return method == kSeparable ? "0.75" : method == kGather ? "8" : kNoSetting;
+  const passes::DepthOfField::Params own;
+  const std::string setting = method == kSeparable ? fmt::format("{}", own.scale)
+                              : method == kGather  ? fmt::format("{}", own.steps)
+                                                   : kNoSetting;
+  CHECK(std::ranges::find(kSettings.at(method), setting) != kSettings.at(method).end(),
+        "{} is not measured", setting);
+  return setting;
 }
 
 Table errorTable(const Results& results, std::string title, const std::string& counter,
-                 double Spread::*worst) {
+                 double Spread::* worst) {
   std::vector<std::string> columns = kMethods;
   columns.push_back(kSharp);
   const std::string all = "all";
@@ -193,7 +200,7 @@ Suite depthOfFieldSuite() {
       .scenes =
           {{.name = "atrium", .path = "builtin:atrium"},
            {.name = "nightcity", .path = "builtin:nightcity", .eyeHeight = 1.7f},
-           {.name = "materials", .path = "builtin:materials"},
+           {.name = "mirrors", .path = "builtin:mirrors"},
            {.name = "sponza", .path = "crytek_sponza/gltf/sponza.gltf", .outside = true},
            {.name = "institute", .path = "redeclipse_institute/institute.obj", .outside = true},
            {.name = "living_room", .path = "godot_living_room/living_room.glb", .outside = true}},

@@ -7,7 +7,7 @@ uniform sampler2D color;
 uniform sampler2D depth;
 
 layout(location = 0) out vec4 behind;      // rgb times a; a: its share of the pixels
-layout(location = 1) out vec4 behindWide;  // the same, and of what is before it in narrow circles
+layout(location = 1) out vec4 behindWide;  // the same, and of what is before it but behind all wide circles
 
 void main() {
   ivec2 first = ivec2(gl_FragCoord.xy) * 4;
@@ -18,6 +18,6 @@ void main() {
       float near = -circleAt(texelFetch(depth, ivec2(x, y), 0).r);
       vec4 light = vec4(finite(texelFetch(color, ivec2(x, y), 0).rgb), 1.0) / 16.0;
       if (near <= kSharp) behind += light;
-      if (!isWide(near)) behindWide += light;
+      if (!isWide(kOther * near)) behindWide += light;
     }
 }

@@ -25,13 +25,13 @@ float scaleOf(float scale) {
 }
 
 // px around a pixel that count for it. Of the gather method: the circles that reach it, as smooth
-// as the largest circles around them require, and the tiles that tell those.
+// as whoever reads them requires by the circles that reach there, and the tiles that tell those.
 int haloOf(const DepthOfField::Params& params) {
   const float radius = params.maximumRadius;
   if (params.method == DepthOfField::Method::Separable)
     return static_cast<int>(std::ceil(radius)) + 4;
   const float stride = 2.f * radius / (static_cast<float>(params.steps) + 0.5f);  // at most
-  return static_cast<int>(std::ceil(2.f * radius + 2.f * stride)) + 2 * kTile;
+  return static_cast<int>(std::ceil(3.f * radius + 2.f * stride)) + 3 * kTile;
 }
 
 // circle.glsl. A point at distance d is spread over a disc of radius R |d - D| / d on the plane in
@@ -179,6 +179,7 @@ void DepthOfField::gather(gpu::Device& device, const Inputs& in) {
        {{"color", *ports.input},
         {"depth", *ports.depth},
         {"largest", largest_},
+        {"widest", widest_},
         {"nearLayer", near_.light},
         {"nearCover", near_.cover},
         {"farLayer", far_.light},
@@ -188,7 +189,7 @@ void DepthOfField::gather(gpu::Device& device, const Inputs& in) {
 }
 
 void DepthOfField::fitGather(gpu::Device& device, ivec2 size) {
-  for (Texture* texture : {&tiles_, &largest_})
+  for (Texture* texture : {&tiles_, &largest_, &widest_})
     fit(device, *texture, Format::Rgba32Float, (size + kTile - 1) / kTile);
   for (Layer* layer : {&along_, &near_, &far_}) {
     fit(device, layer->light, Format::Rgba16Float, size);
@@ -204,6 +205,7 @@ void DepthOfField::findLargest(gpu::Device& device, const Inputs& in) {
   draw(device, tilesProgram_, {&tiles_}, {{"depth", *in.ports.depth}});
   spreadProgram_->set("reach", tilesAcross(in.params.maximumRadius));
   draw(device, spreadProgram_, {&largest_}, {{"tiles", tiles_}});
+  draw(device, spreadProgram_, {&widest_}, {{"tiles", largest_}});
 }
 
 void DepthOfField::makeLayer(gpu::Device& device, const Inputs& in, float side,
@@ -215,10 +217,16 @@ void DepthOfField::makeLayer(gpu::Device& device, const Inputs& in, float side,
   }
   layerOfPictureProgram_->set("direction", ivec2(1, 0));
   draw(device, layerOfPictureProgram_, {&along_.light, &along_.cover},
-       {{"source", *in.ports.input}, {"depth", *in.ports.depth}, {"largest", largest_}});
+       {{"source", *in.ports.input},
+        {"depth", *in.ports.depth},
+        {"largest", largest_},
+        {"widest", widest_}});
   layerProgram_->set("direction", ivec2(0, 1));
   draw(device, layerProgram_, {&layer.light, &layer.cover},
-       {{"source", along_.light}, {"cover", along_.cover}, {"largest", largest_}});
+       {{"source", along_.light},
+        {"cover", along_.cover},
+        {"largest", largest_},
+        {"widest", widest_}});
 }
 
 void DepthOfField::blur(gpu::Device& device, const Inputs& in) {

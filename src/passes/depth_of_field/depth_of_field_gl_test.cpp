@@ -64,16 +64,18 @@ float circleRadius(const scene::Camera& camera, float lensRadius, float focus, f
   return lensRadius * onFocus / height * static_cast<float>(kSize.y);
 }
 
-// px: of a disc that blurs an edge as the middle row does. The rise has the disc's variance along
+// px: of a disc that blurs an edge as a row does. The rise has the disc's variance along
 // x, a quarter of its squared radius.
-float radiusOfEdge(const Image& image) {
+float radiusOfEdge(const Image& image, int y) {
   double sum = 0, first = 0, second = 0;
-  const int y = image.height() / 2;
   for (int x = 1; x < image.width(); ++x) {
     const double rise = image.pixel<float>(x, y)[1] - image.pixel<float>(x - 1, y)[1];
     sum += rise, first += rise * x, second += rise * x * x;
   }
   return static_cast<float>(2. * std::sqrt(second / sum - first / sum * (first / sum)));
+}
+float radiusOfEdge(const Image& image) {
+  return radiusOfEdge(image, image.height() / 2);
 }
 
 // 10 %; a third of a pixel where that is less.
@@ -194,6 +196,34 @@ TEST(DepthOfFieldGather, AnEdgeBetweenDistancesIsThatOfTheNearerThing) {
   }
 }
 
+// The nearer thing is one, although its circles are narrow above and wide below: a luminous half
+// that leans towards the eye, before a bright wall in focus.
+TEST(DepthOfFieldGather, AnEdgeGoesOnFromNarrowToWideCircles) {
+  scene::Scene scene = testing::emptyScene();
+  addCard(scene, 6.f, {-50, -50}, {50, 50}, vec3(0.5f));
+  addHalf(scene, 3.f, true, vec3(1));
+  scene::Node& node = scene.nodes[scene.objects.back().node];
+  const float lean = 0.9f;  // rad
+  node.rotation = glm::angleAxis(lean, vec3(1, 0, 0));
+  updateTransforms(scene);
+  const Image image = blurred(scene, {{"lensRadius", 0.5}, {"focusDistance", 6.0}});
+  const float pixel = 2.f * std::tan(0.5f * scene.cameras[0].fovY) / static_cast<float>(kSize.y);
+  float narrowest = 1e9f, widest = 0.f;
+  for (int y = 15; y < 75; y += 5) {
+    const float slope =
+        pixel * (0.5f * static_cast<float>(kSize.y) - (static_cast<float>(y) + 0.5f));
+    // On the plane through (0, 0, -3) along (0, cos, sin): slope * distance upwards.
+    const float distance = 3.f / (1.f + slope * std::tan(lean));
+    const float radius = circleRadius(scene.cameras[0], 0.5f, 6.f, distance);
+    SCOPED_TRACE(::testing::Message() << "row " << y << ", " << radius << " px");
+    EXPECT_NEAR(radiusOfEdge(image, y), radius, std::max(0.12f * radius, 0.5f));
+    narrowest = std::min(narrowest, radius);
+    widest = std::max(widest, radius);
+  }
+  EXPECT_LT(narrowest, 6.f);
+  EXPECT_GT(widest, 12.f);
+}
+
 // A lamp of a few pixels, brighter than all else, becomes an even disc, although most of the disc
 // is read in strides; and no light is lost.
 TEST(DepthOfFieldGather, ALampBecomesAnEvenDisc) {
@@ -237,6 +267,9 @@ TEST(DepthOfFieldGather, ANarrowCircleBesideAWideOneIsNoLessEven) {
     EXPECT_NEAR(sumOf(after) / sumOf(before), 1., 0.1);
     const float radius = circleRadius(scene.cameras[0], lens, 3.f, distance);
     ASSERT_LT(radius, 8.f) << "narrow";
+    const float sky =
+        circleRadius(scene.cameras[0], lens, 3.f, std::numeric_limits<float>::infinity());
+    ASSERT_TRUE(distance < 3.f || sky > 9.f) << "wide";
     float least = 1e9f, most = 0.f;
     for (int y = 0; y < after.height(); ++y)
       for (int x = 0; x < after.width(); ++x) {

@@ -10,7 +10,7 @@ uniform sampler2D farCover;   // share of the pixel whose light it is
 uniform sampler2D nearLayer;  // the same of what is before the plane in focus
 uniform sampler2D nearCover;
 uniform sampler2D behind;      // rgb times a: what is not before it
-uniform sampler2D behindWide;  // and what is, but in a narrow circle
+uniform sampler2D behindWide;  // and what is, but behind all wide circles
 uniform vec2 uvOfPixel;        // in these two
 
 layout(location = 0) out vec4 blurred;
@@ -53,11 +53,6 @@ float share(float radius, float away, float stride) {
   float reached = clamp((sqrt(squared) - away) / stride + 0.5, 0.0, 1.0);
   return reached / max(3.14159265 / (stride * stride) * squared + 0.26, 0.5);
 }
-
-// Whether, before the plane in focus, the first circle is so much larger that its thing is another one, in front
-// of the second: 0 to 1.
-const float kSame = 1.25, kOther = 1.75;
-float inFront(float radius, float other) { return smoothstep(kSame, kOther, radius / max(other, kSharp)); }
 
 // Behind the plane in focus a tap counts as far as its own circle and the pixel's reach: what is farther away is
 // covered by what is nearer, and never spreads over it.
@@ -141,7 +136,7 @@ vec3 nearColor(float radius) {
     surface = nearSurface(reach, own, stride, kWide);
     float narrow = largestNarrowAt(pixel).x;
     if (narrow > kSharp && own < kOther * narrow) {
-      Surface same = nearSurface(reach, own, 1.0, kNarrow);
+      Surface same = nearSurface(own + 0.5, own, 1.0, kNarrow);
       surface.light += same.light;
       surface.open = max(surface.open + same.open, 0.0);
     }
@@ -159,20 +154,32 @@ vec3 nearColor(float radius) {
   return color;
 }
 
-// The light that what lies in front throws on the pixel; a: how much of it that covers.
-vec4 front(float radius, float own, float stride, int which) {
+// What lies in front throws light on the pixel.
+struct Front {
+  vec4 light;    // rgb times a; a: how much of the pixel it covers
+  float radius;  // of its circles, times a
+};
+Front front(float radius, float own, float stride, int which) {
   int rows = rowsOf(radius, stride);
-  vec4 sum = vec4(0.0);
+  Front sum = Front(vec4(0.0), 0.0);
   for (int y = -rows; y <= rows; ++y) {
     int taps = tapsOf(y, rows);
     for (int x = -taps; x <= taps; ++x) {
       vec2 offset = stride * vec2(x, y);
       Light light = nearLight(offset, which);
       float weight = light.cover * inFront(light.radius, own) * share(light.radius, length(offset), stride);
-      sum += weight * vec4(light.color, 1.0);
+      sum.light += weight * vec4(light.color, 1.0);
+      sum.radius += weight * light.radius;
     }
   }
   return sum;
+}
+
+// Narrow circles count as far as wide ones do not cover them; where both are of one thing, they lie side by side.
+vec4 together(Front wide, Front narrow) {
+  if (min(wide.light.a, narrow.light.a) <= 0.0) return wide.light + narrow.light;
+  float covering = inFront(wide.radius / wide.light.a, narrow.radius / narrow.light.a);
+  return wide.light + narrow.light * (1.0 - covering * min(wide.light.a, 1.0));
 }
 
 void main() {
@@ -184,9 +191,10 @@ void main() {
   if (circle > kSharp) blurred.rgb = farColor(circle);
   if (circle < -kSharp) blurred.rgb = nearColor(-circle);
 
-  float own = max(-circle, kSharp), wide = largestAt(pixel).x, narrow = largestNarrowAt(pixel).x;
-  vec4 light = vec4(0.0);
-  if (isWide(wide) && wide > kSame * own) light += front(wide, own, strideOf(wide), kWide);
-  if (narrow > kSame * own) light += front(narrow, own, 1.0, kNarrow);
+  float own = max(ownRadius(-circle), kSharp), largestWide = largestAt(pixel).x, largestNarrow = largestNarrowAt(pixel).x;
+  Front wide = Front(vec4(0.0), 0.0), narrow = wide;
+  if (isWide(largestWide) && largestWide > kSame * own) wide = front(largestWide, own, strideOf(largestWide), kWide);
+  if (largestNarrow > kSame * own) narrow = front(largestNarrow, own, 1.0, kNarrow);
+  vec4 light = together(wide, narrow);
   if (light.a > 0.0) blurred.rgb = mix(blurred.rgb, light.rgb / light.a, min(1.05 * light.a, 1.0));
 }

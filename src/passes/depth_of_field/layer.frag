@@ -36,8 +36,7 @@ float radiusOf(float nearness) { return side < 0.0 ? nearness : 1.0 / nearness; 
 
 // A pixel's light is spread over a tent.
 float shareOf(Light light, float away, float stride) {
-  float height = 1.0 / smoothingOf(light.radius, stride);
-  return light.cover * height * max(1.0 - away * height, 0.0);
+  return light.cover / stride * max(1.0 - away / stride, 0.0);
 }
 
 void main() {

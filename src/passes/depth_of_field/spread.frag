@@ -1,4 +1,5 @@
-// The largest circles that may reach into each tile, from any.
+// The largest circles that may reach into each tile, from any. Of these once more: the largest by which a pixel
+// is read that reads the tile, too.
 #include "passes/depth_of_field/tile.glsl"
 
 uniform sampler2D tiles;

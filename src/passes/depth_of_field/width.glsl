@@ -7,3 +7,8 @@ float strideOf(float radius) { return exp2(max(ceil(log2(max(radius, 1.0) / (flo
 
 // Narrow ones are read pixel by pixel.
 bool isWide(float radius) { return radius > float(steps) + 0.5; }
+
+// Whether, before the plane in focus, the first circle is so much larger that its thing is another one, in front
+// of the second: 0 to 1.
+const float kSame = 1.25, kOther = 1.75;
+float inFront(float radius, float other) { return smoothstep(kSame, kOther, radius / max(other, 0.5)); }

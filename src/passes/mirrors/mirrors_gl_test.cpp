@@ -187,8 +187,14 @@ TEST_F(Mirrors, InMirrorsShowOneImageMoreForEachReflection) {
   addCard(facing({1.7f, 0.3f, -2}, {0, 0, 1}, vec3(0.3f)), {0, 1, 0});
   scene_.materials.back().doubleSided = true;
   EXPECT_EQ(greenImagesOf(radiance(scene_, plain(), kPicture)), 1);
-  for (const int depth : {1, 2, 3, 4})
-    EXPECT_EQ(greenImagesOf(radiance(scene_, reflecting(depth), kPicture)), 1 + depth);
+  for (const int depth : {1, 2, 3, 4}) {
+    const Image image = radiance(scene_, reflecting(depth), kPicture);
+    EXPECT_EQ(greenImagesOf(image), 1 + depth);
+    // What the budget leaves out shows the mirror's own material, as beyond the depth.
+    graph::Pipeline pipeline = reflecting(8);
+    pipeline.passes[3].params["budget"] = depth;
+    EXPECT_TRUE(equal(radiance(scene_, pipeline, kPicture), image)) << depth;
+  }
 }
 
 // From behind a single-sided mirror is not there and a double-sided one reflects that side.

@@ -45,6 +45,11 @@ render::Window around(const render::Window& a, const render::Window& b) {
                  glm::max(a.origin + ivec2(a.size), b.origin + ivec2(b.size)));
 }
 
+render::Window common(const render::Window& a, const render::Window& b) {
+  return between(glm::max(a.origin, b.origin),
+                 glm::min(a.origin + ivec2(a.size), b.origin + ivec2(b.size)));
+}
+
 vec4 towards(const vec4& eyeW, const vec4& planeW) {
   return glm::dot(planeW, eyeW) < 0.f ? -planeW : planeW;
 }
@@ -65,7 +70,12 @@ class Planner {
 
   ReflectionPlan plan(const render::ViewData& view, std::span<const std::uint32_t> mirrors) {
     ReflectionPlan plan;
-    plan.reflections = reflectionsIn(view.view, view.window, mirrors);
+    const render::Window whole{.size = size_};
+    const bool isPart = view.window.size != size_;
+    const std::vector<std::uint32_t> all =
+        isPart ? mirrorsIn(view.view, whole)
+               : std::vector<std::uint32_t>(mirrors.begin(), mirrors.end());
+    plan.reflections = reflectionsIn(view.view, whole, all);
     wait(plan.reflections, view.view, 1);
     for (; !waiting_.empty() && planned_ < settings_.budget; ++planned_) {
       const Waiting next = waiting_.top();
@@ -75,6 +85,7 @@ class Planner {
     plan.beyondBudget = waiting_.size();
     for (; !waiting_.empty(); waiting_.pop()) waiting_.top().reflection->mirrors.clear();
     dropWithoutMirrors(plan.reflections);
+    if (isPart) cut(plan.reflections, view.window);
     plan.curved = std::move(curved_);
     return plan;
   }
@@ -102,6 +113,33 @@ class Planner {
   static void dropWithoutMirrors(std::vector<Reflection>& reflections) {
     std::erase_if(reflections, [](const Reflection& r) { return r.mirrors.empty(); });
     for (Reflection& reflection : reflections) dropWithoutMirrors(reflection.within);
+  }
+
+  std::vector<std::uint32_t> mirrorsAmong(std::span<const std::uint32_t> objects) const {
+    std::vector<std::uint32_t> mirrors;
+    std::ranges::copy_if(objects, std::back_inserter(mirrors), [&](std::uint32_t i) {
+      return isMirror(scene_.materials[scene_.objects[i].material]);
+    });
+    std::ranges::sort(mirrors);
+    return mirrors;
+  }
+
+  std::vector<std::uint32_t> mirrorsIn(const scene::View& view, const render::Window& part) const {
+    std::vector<std::uint32_t> objects;
+    gpuScene_.bvh.query(render::frustumW(view, size_, part), objects);
+    return mirrorsAmong(objects);
+  }
+
+  // Leaves what a window of the picture shows.
+  void cut(std::vector<Reflection>& reflections, const render::Window& window) const {
+    for (Reflection& reflection : reflections) reflection.part = common(reflection.part, window);
+    std::erase_if(reflections, [](const Reflection& r) { return isEmpty(r.part); });
+    for (Reflection& reflection : reflections) {
+      reflection.visible.clear();
+      gpuScene_.bvh.query(render::frustumW(reflection.view, size_, reflection.part),
+                          reflection.visible);
+      cut(reflection.within, window);
+    }
   }
 
   // What mirrors show in a part of a view's picture.
@@ -191,12 +229,8 @@ class Planner {
     gpuScene_.bvh.query(render::frustumW(reflection.view, size_, reflection.part),
                         reflection.visible);
     if (depth == settings_.depth) return;
-    std::vector<std::uint32_t> mirrors;
-    std::ranges::copy_if(reflection.visible, std::back_inserter(mirrors), [&](std::uint32_t i) {
-      return isMirror(scene_.materials[scene_.objects[i].material]);
-    });
-    std::ranges::sort(mirrors);
-    reflection.within = reflectionsIn(reflection.view, reflection.part, mirrors);
+    reflection.within =
+        reflectionsIn(reflection.view, reflection.part, mirrorsAmong(reflection.visible));
     wait(reflection.within, reflection.view, depth + 1);
   }
 

@@ -26,8 +26,9 @@ struct Reflection {
 struct ReflectionSettings {
   int depth = 1;           // most reflections of a ray
   bool backFaces = false;  // single-sided mirrors reflect on both sides
-  // Most pictures: where mirrors face each other, their number grows with the power of the depth.
-  // A picture comes before all that are smaller on the screen, and after the one that shows it.
+  // Most pictures: where mirrors face each other, their number multiplies with each depth. A
+  // picture comes before all that are smaller in the whole picture, and after the one that shows
+  // it: all windows of a picture leave out the same.
   std::size_t budget = 256;
 };
 
@@ -37,7 +38,7 @@ struct ReflectionPlan {
   std::vector<std::uint32_t> curved;  // mirrors with more than kMostFaces: they reflect nothing
 };
 
-// mirrors: those that the view sees; they may reach beyond its window.
+// mirrors: those that the view's window sees; they may reach beyond it.
 ReflectionPlan planReflections(const render::GpuScene& gpuScene, const render::ViewData& view,
                                std::span<const std::uint32_t> mirrors,
                                const ReflectionSettings& settings);

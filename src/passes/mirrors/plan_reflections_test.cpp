@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <set>
 
 #include "core/random.hpp"
 #include "passes/mirrors/mirror_faces.hpp"
@@ -144,6 +145,13 @@ class Plan : public ::testing::Test {
     return add(1, kOther, glm::scale(glm::translate(mat4(1.f), at), vec3(side)));
   }
 
+  // Six mirrors around the camera.
+  void addRoom() {
+    for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
+                            vec3(0, 0, 1), vec3(0, 0, -1)})
+      addSheet(-2.f * axis, axis, 4.f);
+  }
+
   ReflectionPlan plan(int depth = 1, bool backFaces = false, std::size_t budget = 1000) {
     updateTransforms(scene_);
     std::vector<Aabb> boxes;
@@ -256,11 +264,8 @@ std::vector<std::size_t> areasOf(const std::vector<Reflection>& reflections) {
   return areas;
 }
 
-// A room of six mirrors.
 TEST_F(Plan, KeepsTheLargestPicturesOfABudget) {
-  for (const vec3 axis : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, -1, 0),
-                          vec3(0, 0, 1), vec3(0, 0, -1)})
-    addSheet(-2.f * axis, axis, 4.f);
+  addRoom();
   const ReflectionPlan whole = plan(4);
   EXPECT_EQ(whole.beyondBudget, 0);
   const std::vector<std::size_t> areas = areasOf(whole.reflections);
@@ -271,8 +276,31 @@ TEST_F(Plan, KeepsTheLargestPicturesOfABudget) {
               std::vector(areas.begin(), areas.begin() + static_cast<std::ptrdiff_t>(budget)));
     EXPECT_GT(part.beyondBudget, 0);
   }
+  EXPECT_EQ(plan(4, false, areas.size()).beyondBudget, 0);
+  EXPECT_EQ(plan(4, false, areas.size() - 1).beyondBudget, 1);
   const ReflectionPlan deep = plan(16, false, 200);
   EXPECT_THAT(areasOf(deep.reflections), SizeIs(200));
+}
+
+void addPlanes(const std::vector<Reflection>& reflections, std::set<std::vector<float>>& planes) {
+  for (const Reflection& reflection : reflections) {
+    const vec4& p = reflection.planeW;
+    planes.insert({p.x, p.y, p.z, p.w});
+    addPlanes(reflection.within, planes);
+  }
+}
+
+// Windows show what the whole picture shows, beyond the budget, too.
+TEST_F(Plan, LeavesOutTheSameInAllWindows) {
+  addRoom();
+  std::set<std::vector<float>> whole, parts;
+  addPlanes(plan(4, false, 20).reflections, whole);
+  for (const int x : {0, 50})
+    for (const int y : {0, 50}) {
+      view_.window = {.origin = {x, y}, .size = {50, 50}};
+      addPlanes(plan(4, false, 20).reflections, parts);
+    }
+  EXPECT_EQ(parts, whole);
 }
 
 TEST_F(Plan, NamesCurvedMirrors) {

@@ -95,7 +95,11 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
   render::ShadowMaps& out = *ports.shadowMaps;
   out.maps = std::move(plan.maps);
   out.ofLight = std::move(plan.ofLight);
-  prepareShadowMaps(context.device, out, params.size, params.localSize);
+  prepareShadowMaps(
+      context.device, out,
+      {params.size, params.method == Method::Cascades ? "set size or cascades of ShadowMaps lower"
+                                                      : "set size of ShadowMaps lower"},
+      {params.localSize, "set localSize or localLights of ShadowMaps lower"});
   drawings_.resize(std::max(drawings_.size(), out.maps.size()));
   for (std::size_t i = 0; i < out.maps.size(); ++i)
     draw(context.device, ports, out.maps[i], drawings_[i]);

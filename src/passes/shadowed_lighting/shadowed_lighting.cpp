@@ -35,7 +35,7 @@ void ShadowedLighting::describe(graph::PassInfo<Params, Ports>& d) {
 ShadowedLighting::ShadowedLighting(gpu::Device& device)
     : lighting_(device, "passes/shadowed_lighting/shadowed_lighting.frag"),
       darkening_(device, "passes/shadowed_lighting/darken.frag") {
-  prepareShadowMaps(device, noMaps_, 1, 1);
+  prepareShadowMaps(device, noMaps_, {}, {});
 }
 
 void ShadowedLighting::execute(graph::PassContext& context, const Params& params,
