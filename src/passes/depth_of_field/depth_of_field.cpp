@@ -170,7 +170,7 @@ void DepthOfField::gather(gpu::Device& device, const Inputs& in) {
   makeLayer(device, in, 1.f, far_);
   behindProgram_->set("lens", in.lens);
   behindProgram_->set("steps", in.params.steps);
-  draw(device, behindProgram_, {&behind_, &behindWide_},
+  draw(device, behindProgram_, {&behind_, &narrow_, &narrowRadius_},
        {{"color", *ports.input}, {"depth", *ports.depth}});
   gatherProgram_->set("lens", in.lens);
   gatherProgram_->set("steps", in.params.steps);
@@ -185,7 +185,8 @@ void DepthOfField::gather(gpu::Device& device, const Inputs& in) {
         {"farLayer", far_.light},
         {"farCover", far_.cover},
         {"behind", behind_, gpu::kLinear},
-        {"behindWide", behindWide_, gpu::kLinear}});
+        {"narrow", narrow_, gpu::kLinear},
+        {"narrowRadius", narrowRadius_, gpu::kLinear}});
 }
 
 void DepthOfField::fitGather(gpu::Device& device, ivec2 size) {
@@ -195,7 +196,7 @@ void DepthOfField::fitGather(gpu::Device& device, ivec2 size) {
     fit(device, layer->light, Format::Rgba16Float, size);
     fit(device, layer->cover, Format::R8Unorm, size);
   }
-  for (Texture* texture : {&behind_, &behindWide_})
+  for (Texture* texture : {&behind_, &narrow_, &narrowRadius_})
     fit(device, *texture, Format::Rgba16Float, (size + 3) / 4);
 }
 

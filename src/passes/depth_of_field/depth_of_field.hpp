@@ -54,9 +54,9 @@ class DepthOfField {
 
   gpu::ProgramPtr tilesProgram_, spreadProgram_, layerOfPictureProgram_, layerProgram_,
       behindProgram_, gatherProgram_;
-  gpu::Texture tiles_, largest_, widest_;  // largest circles of 16 by 16 px
-  Layer along_, near_, far_;               // of wide circles; along_: smoothed along x
-  gpu::Texture behind_, behindWide_;       // a quarter of the size
+  gpu::Texture tiles_, largest_, widest_;        // largest circles of 16 by 16 px
+  Layer along_, near_, far_;                     // of wide circles; along_: smoothed along x
+  gpu::Texture behind_, narrow_, narrowRadius_;  // a quarter of the size
   gpu::ProgramPtr blurProgram_, combineProgram_, setupProgram_;
   std::array<gpu::Texture, 2> small_;  // of the separable method, blurred along x and both
 };

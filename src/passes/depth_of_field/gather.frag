@@ -9,9 +9,10 @@ uniform sampler2D farLayer;   // of wide circles, smoothed for the widest stride
 uniform sampler2D farCover;   // share of the pixel whose light it is
 uniform sampler2D nearLayer;  // the same of what is before the plane in focus
 uniform sampler2D nearCover;
-uniform sampler2D behind;      // rgb times a: what is not before it
-uniform sampler2D behindWide;  // and what is, but behind all wide circles
-uniform vec2 uvOfPixel;        // in these two
+uniform sampler2D behind;        // rgb times a: what is not before it
+uniform sampler2D narrow;        // rgb times a: what is, in narrow circles
+uniform sampler2D narrowRadius;  // of these, px, times a
+uniform vec2 uvOfPixel;          // in these three
 
 layout(location = 0) out vec4 blurred;
 
@@ -74,8 +75,8 @@ vec3 farColor(float radius) {
   vec4 sum;
   if (isWide(radius)) {
     sum = farSum(radius, own, strideOf(radius), kWide);
-    float narrow = largestNarrowAt(pixel).y;
-    if (narrow > kSharp) sum += farSum(narrow, own, 1.0, kNarrow);
+    float largestNarrow = largestNarrowAt(pixel).y;
+    if (largestNarrow > kSharp) sum += farSum(largestNarrow, own, 1.0, kNarrow);
   } else {
     sum = farSum(radius, own, 1.0, kAll);
   }
@@ -107,6 +108,11 @@ Surface nearSurface(float radius, float own, float stride, int which) {
   return sum;
 }
 
+vec4 furtherNarrow(float own, vec2 uv) {
+  vec4 light = textureLod(narrow, uv, 0.0);
+  return light.a > 0.0 ? light * inFront(own, textureLod(narrowRadius, uv, 0.0).r / light.a) : vec4(0.0);
+}
+
 // The picture does not have what a surface before the plane in focus hides, but it is like what is nearest beside it.
 vec4 hiddenColor(float radius, float own, float stride, int which) {
   int rows = rowsOf(radius, stride);
@@ -120,7 +126,8 @@ vec4 hiddenColor(float radius, float own, float stride, int which) {
       vec4 further = light.cover * inFront(own, light.radius) * vec4(light.color, 1.0);
       if (light.cover < 1.0) {
         vec2 uv = (gl_FragCoord.xy + offset) * uvOfPixel;
-        further += which == kWide ? textureLod(behindWide, uv, 0.0) : textureLod(behind, uv, 0.0);
+        further += textureLod(behind, uv, 0.0);
+        if (which == kWide) further += furtherNarrow(own, uv);
       }
       sum += closeness * closeness * further;
     }
@@ -134,8 +141,8 @@ vec3 nearColor(float radius) {
   Surface surface;
   if (isWide(radius)) {
     surface = nearSurface(reach, own, stride, kWide);
-    float narrow = largestNarrowAt(pixel).x;
-    if (narrow > kSharp && own < kOther * narrow) {
+    float largestNarrow = largestNarrowAt(pixel).x;
+    if (largestNarrow > kSharp && own < kOther * largestNarrow) {
       Surface same = nearSurface(own + 0.5, own, 1.0, kNarrow);
       surface.light += same.light;
       surface.open = max(surface.open + same.open, 0.0);
@@ -176,10 +183,10 @@ Front front(float radius, float own, float stride, int which) {
 }
 
 // Narrow circles count as far as wide ones do not cover them; where both are of one thing, they lie side by side.
-vec4 together(Front wide, Front narrow) {
-  if (min(wide.light.a, narrow.light.a) <= 0.0) return wide.light + narrow.light;
-  float covering = inFront(wide.radius / wide.light.a, narrow.radius / narrow.light.a);
-  return wide.light + narrow.light * (1.0 - covering * min(wide.light.a, 1.0));
+vec4 together(Front wide, Front beside) {
+  if (min(wide.light.a, beside.light.a) <= 0.0) return wide.light + beside.light;
+  float covering = inFront(wide.radius / wide.light.a, beside.radius / beside.light.a);
+  return wide.light + beside.light * (1.0 - covering * min(wide.light.a, 1.0));
 }
 
 void main() {
@@ -192,9 +199,9 @@ void main() {
   if (circle < -kSharp) blurred.rgb = nearColor(-circle);
 
   float own = max(ownRadius(-circle), kSharp), largestWide = largestAt(pixel).x, largestNarrow = largestNarrowAt(pixel).x;
-  Front wide = Front(vec4(0.0), 0.0), narrow = wide;
+  Front wide = Front(vec4(0.0), 0.0), beside = wide;
   if (isWide(largestWide) && largestWide > kSame * own) wide = front(largestWide, own, strideOf(largestWide), kWide);
-  if (largestNarrow > kSame * own) narrow = front(largestNarrow, own, 1.0, kNarrow);
-  vec4 light = together(wide, narrow);
+  if (largestNarrow > kSame * own) beside = front(largestNarrow, own, 1.0, kNarrow);
+  vec4 light = together(wide, beside);
   if (light.a > 0.0) blurred.rgb = mix(blurred.rgb, light.rgb / light.a, min(1.05 * light.a, 1.0));
 }
