@@ -32,8 +32,9 @@ std::vector<Case> cases() {
 }
 
 graph::Pipeline shadowRows(const std::string& method = "lispsm",
-                           std::vector<std::string> types = {"Cull", "GBuffer", "CustomShaders",
-                                                             "ShadowMaps", "ShadowedLighting"}) {
+                           const std::vector<std::string>& types = {"Cull", "GBuffer",
+                                                                    "CustomShaders", "ShadowMaps",
+                                                                    "ShadowedLighting"}) {
   graph::Pipeline pipeline = testing::rows(types);
   for (graph::PassRow& row : pipeline.passes)
     if (row.type == "ShadowMaps") row.params["method"] = method;
