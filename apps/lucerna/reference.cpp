@@ -33,6 +33,9 @@ struct Options {
 };
 
 Status checkOutput(const Options& options) {
+  if (options.wants("ao") && options.reference.aoRadius == 0.f)
+    return error(ErrorKind::Usage,
+                 "--layers ao: without a radius nothing is occluded; add --ao-radius METRES");
   LUCERNA_TRY_VOID(checkFolderOf(options.output, "-o"));
   LUCERNA_TRY_VOID(
       checkIsNone(options.output, "-o", std::vector{options.render.scene, options.render.camera}));

@@ -265,7 +265,7 @@ TEST_F(TilesTest, DepthOfFieldJoinsButForRounding) {
   for (const char* method : {"gather", "separable"}) {
     SCOPED_TRACE(method);
     settings_.sets = {"DepthOfField.lensRadius=1", "DepthOfField.focusDistance=12",
-                      "DepthOfField.maximumRadius=20", "DepthOfField.steps=3",
+                      "DepthOfField.maximumRadius=10", "DepthOfField.steps=3",
                       std::string("DepthOfField.method=") + method};
     settings_.tile = 0;
     const Image picture = pictureOf();

@@ -20,8 +20,8 @@ PROGRAM = ""
 SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size", "depth-of-field"]
 
 
-def small(scene="cornell", cameras=1, rounds=1):
-    return ["--quick", "--scene", f"builtin:{scene}", "--size", "48x36", "--cameras", str(cameras), "--rounds", str(rounds)]
+def small(scene="cornell", cameras=1, rounds=1, size="48x36"):
+    return ["--quick", "--scene", f"builtin:{scene}", "--size", size, "--cameras", str(cameras), "--rounds", str(rounds)]
 
 
 class BenchTest(unittest.TestCase):
@@ -122,7 +122,7 @@ class BenchTest(unittest.TestCase):
         self.assertGreater(fine["psnr"], 20)
 
     def test_depth_of_field_has_its_error(self):
-        runs, text = self.measured("depth-of-field", *small("atrium", cameras=2))
+        runs, text = self.measured("depth-of-field", *small("atrium", cameras=3, size="128x72"))
         none, gather = (runs[f"depth-of-field/{n}/atrium/focus before_median"] for n in ("none/-", "gather/8"))
         self.assertLess(gather["flip"], none["flip"])
         self.assertGreater(gather["psnr"], none["psnr"])

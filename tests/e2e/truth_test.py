@@ -158,8 +158,8 @@ class CommandTest(unittest.TestCase):
 
     def test_says_what_it_made(self):
         picture = self.folder / "out.exr"
-        run = lucerna("reference", "builtin:cornell", "--size", "32x18", "--spp", 64, "--error", 0.2, "--layers",
-                      "color,direct,reflection,ao,visibility,error", "-o", picture, "--json")
+        run = lucerna("reference", "builtin:cornell", "--size", "32x18", "--spp", 64, "--error", 0.2, "--ao-radius", 0.3,
+                      "--layers", "color,direct,reflection,ao,visibility,error", "-o", picture, "--json")
         self.assertEqual(run.returncode, 0, run.stderr)
         said = json.loads(run.stdout)
         self.assertEqual(said["files"], [str(picture)])
@@ -167,14 +167,15 @@ class CommandTest(unittest.TestCase):
         self.assertTrue(0 <= said["error"]["median"] < said["error"]["p99"])  # half of it is black
         self.assertEqual(len(said["lights"]), 1)
         again = self.folder / "again.exr"
-        lucerna("reference", "builtin:cornell", "--size", "32x18", "--spp", 64, "--error", 0.2, "--layers",
+        lucerna("reference", "builtin:cornell", "--size", "32x18", "--spp", 64, "--error", 0.2, "--ao-radius", 0.3, "--layers",
                 "color,direct,reflection,ao,visibility,error", "--threads", 1, "-o", again)
         self.assertEqual(picture.read_bytes(), again.read_bytes())
 
     def test_refuses_what_cannot_be(self):
         for arguments, code, words in (
                 (("builtin:cornell", "-o", self.folder / "a.png"), 2, ".exr or .hdr"),
-                (("builtin:cornell", "-o", self.folder / "a.hdr", "--layers", "color,ao"), 2, "several layers"),
+                (("builtin:cornell", "-o", self.folder / "a.hdr", "--layers", "color,error"), 2, "several layers"),
+                (("builtin:cornell", "-o", self.folder / "a.exr", "--layers", "color,ao"), 2, "--ao-radius"),
                 (("builtin:cornell", "-o", self.folder / "a.exr", "--layers", "colour"), 2, "did you mean"),
                 (("builtin:cornell", "-o", self.folder / "a.exr", "--focus-distance", 2), 2, "--lens-radius"),
                 (("builtin:cornell", "-o", self.folder / "no" / "a.exr"), 2, "folder"),

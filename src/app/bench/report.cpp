@@ -56,10 +56,10 @@ std::vector<std::string> notesOf(const Results& results) {
   std::vector<std::string> notes = results.notes;
   notes.insert(
       notes.begin(),
-      fmt::format("{} seeded camera{} a scene; each variant is drawn once to warm up and then "
-                  "{} time{}, in turn with the others.",
-                  results.cameras, results.cameras == 1 ? "" : "s", results.rounds,
-                  results.rounds == 1 ? "" : "s"));
+      fmt::format("{} seeded camera{} a scene, pictures of {} px; each variant is drawn once to "
+                  "warm up and then {} time{}, in turn with the others.",
+                  results.cameras, results.cameras == 1 ? "" : "s", fmt::join(results.sizes, ", "),
+                  results.rounds, results.rounds == 1 ? "" : "s"));
   if (results.cancelled) notes.insert(notes.begin(), "Cancelled: scenes are missing.");
   return notes;
 }
@@ -93,8 +93,9 @@ LinePlot medianPlot(LinePlot plot, const std::vector<std::string>& names,
 
 Table drawsTable(const Results& results, const std::string& size, std::string corner,
                  const std::vector<std::string>& rows, const std::vector<std::string>& scenes) {
-  return tableOf("Draws, primitives of the median frame at " + size, std::move(corner), rows,
-                 scenes, [&](const std::string& row, const std::string& scene) -> std::string {
+  return tableOf("Draws, primitives at " + size + ": medians, each row by itself",
+                 std::move(corner), rows, scenes,
+                 [&](const std::string& row, const std::string& scene) -> std::string {
                    const Measurement* m = results.find({size, row, scene});
                    if (!m) return "-";
                    return fmt::format("{:.0f}, {:.0f}", spreadOf(m->samples("draws")).median,

@@ -54,7 +54,8 @@ Context contextOfMachine();  // what does not depend on a driver or the suite
 struct Results {
   std::string suite{};
   Context context{};
-  int cameras = 0, rounds = 0;  // each variant takes `rounds` turns at each camera
+  std::vector<std::string> sizes{};  // of pictures: "800x600" px
+  int cameras = 0, rounds = 0;       // each variant takes `rounds` turns at each camera
   std::vector<Measurement> measurements{};
   std::vector<std::string> notes{};   // what was left out, and why
   bool cancelled = false;             // scenes are missing

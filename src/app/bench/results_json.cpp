@@ -25,7 +25,8 @@ Json contextJson(const std::vector<Results>& suites) {
   const Context context = sharedContext(suites);
   Json extents = Json::object();
   for (const Results& results : suites)
-    extents[results.suite] = {{"cameras", results.cameras},
+    extents[results.suite] = {{"sizes", results.sizes},
+                              {"cameras", results.cameras},
                               {"rounds", results.rounds},
                               {"cancelled", results.cancelled},
                               {"notes", results.notes}};

@@ -77,7 +77,7 @@ Status measure(Run& run) {
 // What the thesis says of figure 4.5: lispsm at 2048 is better than uniform maps at 8192.
 Table thesisTable(const Results& results, const std::vector<std::string>& scenes) {
   const std::string lispsm = "lispsm at 2048", uniform = "uniform at " + mapSizes(results).back();
-  const std::string ratio = "ratio", better = "better at";
+  const std::string ratio = "median of the cameras' ratios", better = lispsm + " is better at";
   return tableOf(
       "FLIP, " + lispsm + " against " + uniform, "scene", scenes, {lispsm, uniform, ratio, better},
       [&](const std::string& scene, const std::string& column) {
@@ -122,11 +122,11 @@ std::vector<Block> report(const Results& results) {
                                 kMethods, [&](const std::string& size, const std::string& method) {
                                   return worstText(results.samples({method, size, scene}, "flip"));
                                 }));
-  blocks.emplace_back(
-      tableOf("PSNR in dB, all scenes: median (worst camera)", "size", sizes, kMethods,
-              [&](const std::string& size, const std::string& method) {
-                return worstText(results.samples({method, size}, "psnr"), &Spread::min);
-              }));
+  blocks.emplace_back(tableOf("PSNR in dB, all scenes: median (worst camera)", "size", sizes,
+                              kMethods, [&](const std::string& size, const std::string& method) {
+                                return worstText(results.samples({method, size}, "psnr"),
+                                                 &Spread::min);
+                              }));
   const std::string side = "px, side of the map";
   blocks.emplace_back(medianPlot({.title = "Time against size, all scenes",
                                   .xLabel = side,

@@ -153,7 +153,7 @@ Table splitTable(const Results& results, const std::string& size) {
 }
 
 Table framesTable(const Results& results, const std::string& size, const std::string& effects) {
-  const std::string ratio = "4x supersampling / SRAA";
+  const std::string ratio = "4x supersampling / SRAA, depth+normal";
   std::vector<std::string> columns = kTechniques;
   columns.push_back(ratio);
   const auto name = [&](const std::string& technique, const std::string& scene) {

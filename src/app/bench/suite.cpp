@@ -163,6 +163,7 @@ Results run(const Suite& suite, const BenchOptions& options) {
   const Extent extent = extentOf(suite, options);
   Results results{.suite = std::string(suite.name), .context = contextOfMachine()};
   results.context.quick = options.quick;
+  for (const uvec2 size : extent.sizes) results.sizes.push_back(sizeName(size));
   results.cameras = extent.cameras;
   results.rounds = extent.rounds;
   results.context.seed = options.render.seed;

@@ -10,11 +10,13 @@ uniform vec2 direction;
 
 layout(location = 0) out vec4 blurred;
 
-// The radius of the disc in pixels of the smaller picture. Making it smaller and larger again blurs, too: by the
-// variances of linear filtering, 1/6 each, and of the last chord's pixel, 1/12; a disc's is a quarter of radius^2.
+// The radius of the disc in pixels of the smaller picture. The last chord's pixel blurs, too, by a variance of 1/12; so
+// do making the picture smaller and larger again, if it is, by those of linear filtering, 1/6 each. A disc's variance is a
+// quarter of radius^2.
 float radiusAt(ivec2 pixel) {
   float circle = circleAt(texelFetch(depth, pixel, 0).r) * scale;
-  return sqrt(max(circle * circle - 4.0 * (scale * scale / 6.0 + 1.0 / 6.0 + 1.0 / 12.0), 0.0));
+  float resampling = scale < 1.0 ? scale * scale / 6.0 + 1.0 / 6.0 : 0.0;
+  return sqrt(max(circle * circle - 4.0 * (resampling + 1.0 / 12.0), 0.0));
 }
 
 void main() {

@@ -11,7 +11,7 @@ namespace {
 // A spot light that opens wider than this on each side gets the six faces of a point light: one
 // picture would have few texels in its middle.
 constexpr float kWidestSpot = 1.2f;       // rad
-constexpr float kCubeShare = 0.57735f;    // half a side of the cube in a sphere of radius 1
+constexpr float kBeyondSurface = 1.01f;   // of a point light: what lies on it throws no shadow
 constexpr float kFaceCorner = 0.955317f;  // rad, between a face's axis and its corners
 
 // How much of the way from equal to proportional cascades: Zhang, Sun, Xu and Lun,
@@ -59,8 +59,8 @@ std::vector<std::uint32_t> lampsOf(std::span<const scene::PlacedLight> lights,
   return lamps;
 }
 
-// A point light is a sphere: what lies in the cube inside it, its bulb for instance, throws no
-// shadow.
+// A point light is a sphere: what lies in it or on it, its bulb for instance, throws no shadow, nor
+// does what else lies in the cube around it.
 std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   const float angle = std::acos(std::clamp(light.cosOuter, -1.f, 1.f));
   if (light.kind == scene::LightKind::Spot && angle <= kWidestSpot)
@@ -78,7 +78,7 @@ std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
           {.positionW = light.positionW,
            .axisW = axis,
            .reach = light.reach,
-           .near = light.kind == scene::LightKind::Point ? kCubeShare * light.radius : 0.f});
+           .near = light.kind == scene::LightKind::Point ? kBeyondSurface * light.radius : 0.f});
   return faces;
 }
 
