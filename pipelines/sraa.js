@@ -4,7 +4,8 @@ pipeline({name: "sraa", output: "Sraa.color"});
 
 pass("Cull");
 pass("GBuffer");
-pass("Lighting");
+pass("TileLights");
+pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");
 pass("Mirrors");

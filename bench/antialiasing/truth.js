@@ -4,7 +4,7 @@ pipeline({name: "truth", output: "ToneMap.color"});
 
 pass("Cull");
 const g = pass("GBuffer");
-pass("Lighting");
+pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");
 pass("Mirrors");

@@ -3,7 +3,7 @@ pipeline({name: "edges", output: "Edges.color"});
 
 pass("Cull");
 const g = pass("GBuffer");
-pass("Lighting");
+pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");
 pass("Mirrors");

@@ -3,7 +3,7 @@ pipeline({name: "vignette"});
 
 pass("Cull");
 pass("GBuffer");
-pass("Lighting");
+pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");
 pass("Mirrors");

@@ -216,7 +216,7 @@ TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
     std::filesystem::last_write_time(
         file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(seconds));
   };
-  const std::string rows = "pass('Cull'); pass('GBuffer'); pass('Lighting'); ";
+  const std::string rows = "pass('Cull'); pass('GBuffer'); pass('TiledLighting'); ";
   write(rows + "pass('ToneMap');", 0);
   settings_.pipeline = file;
   auto opened = openSession(settings_);
@@ -233,7 +233,7 @@ TEST_F(SessionTest, AChangedPipelineFileIsReadAgainAndAFaultyOneLeavesTheLast) {
 
   // Neither a script that does not parse nor rows that do not fit together.
   int seconds = 4;
-  for (const char* faulty : {"pass('Cull'", "pass('Lighting'); pass('ToneMap');"}) {
+  for (const char* faulty : {"pass('Cull'", "pass('TiledLighting'); pass('ToneMap');"}) {
     write(faulty, seconds++);
     const Status status = runFrame(session, nullptr, ignore);
     ASSERT_TRUE(status) << status.error().message;
@@ -252,7 +252,7 @@ TEST_F(SessionTest, AReloadedPipelineThatCannotBeDrawnLeavesTheLast) {
     std::filesystem::last_write_time(
         file, std::filesystem::file_time_type::clock::now() + std::chrono::seconds(seconds));
   };
-  const std::string rows = "pass('Cull'); pass('GBuffer'); pass('Lighting'); ";
+  const std::string rows = "pass('Cull'); pass('GBuffer'); pass('TiledLighting'); ";
   write(rows + "pass('ToneMap');", 0);
   settings_.pipeline = file;
   settings_.shaderFolder = shaders;
@@ -375,7 +375,7 @@ TEST_F(SessionTest, AFaultyPipelineRendersNothing) {
   });
   ASSERT_FALSE(status);
   EXPECT_EQ(status.error().kind, ErrorKind::Pipeline);
-  EXPECT_THAT(status.error().message, HasSubstr("did you mean 'Lighting'"));
+  EXPECT_THAT(status.error().message, HasSubstr("did you mean 'TiledLighting'"));
   EXPECT_FALSE(drawn);
 }
 

@@ -142,7 +142,7 @@ TEST_F(TilesTest, ARowThatWritesFilesIsRefused) {
   const std::string file = (folder_ / "saved.png").string();
   settings_.pipeline = write(
       "save.json",
-      R"({"lucerna": "pipeline/1", "passes": [{"type": "Cull"}, {"type": "GBuffer"}, {"type": "Lighting"},
+      R"({"lucerna": "pipeline/1", "passes": [{"type": "Cull"}, {"type": "GBuffer"}, {"type": "TiledLighting"},
         {"type": "ToneMap"}, {"type": "SaveImage", "params": {"file": ")" +
           file + R"("}}]})");
   settings_.tile = 32;

@@ -24,23 +24,23 @@ struct Stage {
 Stage stageOf(const std::string& type) {
   if (type == "Forward") return {testing::kForwardRows, "ToneMap.color"};
   if (type == "Fullscreen")  // of any format, so nobody reads it
-    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
+    return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
   if (type == "ScreenSpaceAo")
-    return {{"Cull", "GBuffer", "CustomShaders", type, "Lighting", "ToneMap"}, "ToneMap.color"};
-  if (type == "ShadowMaps" || type == "ShadowedLighting")
-    return {{"Cull", "GBuffer", "ShadowMaps", "ShadowedLighting", "ToneMap"}, "ToneMap.color"};
+    return {{"Cull", "GBuffer", "CustomShaders", type, "TiledLighting", "ToneMap"}, "ToneMap.color"};
+  if (type == "ShadowMaps" || type == "TiledLighting")
+    return {{"Cull", "GBuffer", "ShadowMaps", "TiledLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "SaveImage")
-    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "SaveImage"},
+    return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
             {{"file", ::testing::TempDir() + "lucerna-each-pass.png"}}};
-  if (type == "Fxaa") return {{"Cull", "GBuffer", "Lighting", "ToneMap", type}, "Fxaa.color"};
+  if (type == "Fxaa") return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", type}, "Fxaa.color"};
   if (type == "GeometrySamples" || type == "Sraa")
-    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "GeometrySamples", "Sraa"}, "Sraa.color"};
+    return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "GeometrySamples", "Sraa"}, "Sraa.color"};
   if (type == "ShowGBuffer")
-    return {{"Cull", "GBuffer", "Lighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
+    return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
   if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())
     return {testing::kDeferredRows, "ToneMap.color"};
-  return {{"Cull", "GBuffer", "Lighting", type, "ToneMap"}, "ToneMap.color"};
+  return {{"Cull", "GBuffer", "TiledLighting", type, "ToneMap"}, "ToneMap.color"};
 }
 
 // Values at the ends of a parameter's range.

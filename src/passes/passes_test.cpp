@@ -33,7 +33,7 @@ graph::Validation validated(const graph::Pipeline& pipeline) {
 }
 
 const std::vector<std::string> kDeferred = {
-    "Cull", "GBuffer", "Lighting", "CustomShaders", "Background", "Transparency", "ToneMap"};
+    "Cull", "GBuffer", "TiledLighting", "CustomShaders", "Background", "Transparency", "ToneMap"};
 const std::vector<std::string> kForward = {"Cull", "Forward", "Background", "Transparency",
                                            "ToneMap"};
 
@@ -108,13 +108,13 @@ TEST(ShippedRows, MayBeDisabledOneByOneButForCull) {
 }
 
 TEST(ShippedRows, InAnOrderThatReadsBeforeWritingAreRefused) {
-  const graph::Validation validation = validated(rows({"Cull", "Lighting", "GBuffer", "ToneMap"}));
+  const graph::Validation validation = validated(rows({"Cull", "TiledLighting", "GBuffer", "ToneMap"}));
   EXPECT_FALSE(validation.ok());
 }
 
 // They would begin another picture, in black.
 TEST(ShippedRows, ThatDrawRadianceAreRefusedBehindToneMap) {
-  for (const char* last : {"Lighting", "CustomShaders", "Transparency", "Background"}) {
+  for (const char* last : {"TiledLighting", "CustomShaders", "Transparency", "Background"}) {
     SCOPED_TRACE(last);
     EXPECT_THAT(
         validated(rows({"Cull", "GBuffer", "Forward", "ToneMap", last})).text(),
@@ -126,15 +126,15 @@ TEST(ShippedRows, ThatDrawRadianceAreRefusedBehindToneMap) {
 
 TEST(ShippedRows, ThatDrawOverAPictureWantItsDepthBufferAsLarge) {
   graph::Pipeline pipeline =
-      rows({"Cull", "GBuffer", "Lighting", "Fullscreen", "Transparency", "ToneMap"});
+      rows({"Cull", "GBuffer", "TiledLighting", "Fullscreen", "Transparency", "ToneMap"});
   EXPECT_TRUE(validated(pipeline).ok());
   pipeline.passes[3].params["outputScale"] = 0.5;
   EXPECT_THAT(validated(pipeline).text(), ::testing::HasSubstr("SizeMismatch"));
 }
 
 TEST(ShippedRows, DrawCustomShadersBeforeOrAfterTheLighting) {
-  for (const auto& types : {std::vector<std::string>{"CustomShaders", "Lighting"},
-                            std::vector<std::string>{"Lighting", "CustomShaders"}}) {
+  for (const auto& types : {std::vector<std::string>{"CustomShaders", "TiledLighting"},
+                            std::vector<std::string>{"TiledLighting", "CustomShaders"}}) {
     const graph::Validation validation =
         validated(rows({"Cull", "GBuffer", types[0], types[1], "Background", "ToneMap"}));
     EXPECT_EQ(validation.text(), "");
@@ -142,8 +142,8 @@ TEST(ShippedRows, DrawCustomShadersBeforeOrAfterTheLighting) {
 }
 
 TEST(ShippedRows, ShowTheHierarchyBeforeOrAfterToneMapping) {
-  EXPECT_TRUE(validated(rows({"Cull", "GBuffer", "Lighting", "ShowBvh", "ToneMap"})).ok());
-  EXPECT_TRUE(validated(rows({"Cull", "GBuffer", "Lighting", "ToneMap", "ShowBvh"})).ok());
+  EXPECT_TRUE(validated(rows({"Cull", "GBuffer", "TiledLighting", "ShowBvh", "ToneMap"})).ok());
+  EXPECT_TRUE(validated(rows({"Cull", "GBuffer", "TiledLighting", "ToneMap", "ShowBvh"})).ok());
 }
 
 }  // namespace

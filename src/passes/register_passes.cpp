@@ -9,15 +9,15 @@
 #include "passes/fxaa/fxaa.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/geometry_samples/geometry_samples.hpp"
-#include "passes/lighting/lighting.hpp"
 #include "passes/mirrors/mirrors.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
-#include "passes/shadowed_lighting/shadowed_lighting.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
 #include "passes/sraa/sraa.hpp"
+#include "passes/tile_lights/tile_lights.hpp"
+#include "passes/tiled_lighting/tiled_lighting.hpp"
 #include "passes/tone_map/tone_map.hpp"
 #include "passes/transparency/transparency.hpp"
 #include "render/view_group.hpp"
@@ -42,9 +42,9 @@ void registerPasses(graph::Registry& registry) {
   registry.add<Cull>();
   registry.add<GBuffer>();
   registry.add<ScreenSpaceAo>();
-  registry.add<Lighting>();
   registry.add<ShadowMaps>();
-  registry.add<ShadowedLighting>();
+  registry.add<TileLights>();
+  registry.add<TiledLighting>();
   registry.add<CustomShaders>();
   registry.add<Forward>();
   registry.add<Background>();

@@ -1,6 +1,7 @@
-// What a surface sends to the eye. The one place that shades: Lighting, Forward and Transparency
+// What a surface sends to the eye. The one place that shades: TiledLighting, Forward and Transparency
 // call shade() with the same Surface, so they agree.
 #include "render/lights.glsl"
+#include "render/tile_lights.glsl"
 #include "render/surface.glsl"
 
 const float kPi = 3.14159265358979;
@@ -81,7 +82,7 @@ vec3 shade(Surface s) {
   vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * ambientReflectance(s) * s.occlusion;
   // One plain loop: where pixels leave an inner loop at different lights, llvmpipe (Mesa 22.3) takes
   // the index for equal in all of them and reads the wrong light.
-  for (uint i = 0u; i < lightCount.x; ++i)
+  for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i))
     if (mayLight(lights[i], s.positionW, s.normalW)) radiance += arrivingLight(s, i);
   return radiance;
 }

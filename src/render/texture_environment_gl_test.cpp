@@ -33,7 +33,7 @@ scene::Texture textureOf(std::shared_ptr<const Image> image) {
 vec3 shown(const scene::Scene& scene, const char* kept) {
   const bool forward = std::string(kept) == "Forward.color";
   const auto rows = forward ? testing::rows({"Cull", "Forward", "Transparency"})
-                            : testing::rows({"Cull", "GBuffer", "Lighting", "Transparency"});
+                            : testing::rows({"Cull", "GBuffer", "TiledLighting", "Transparency"});
   return testing::centerOf(testing::valueOf(scene, rows, kSize, kept));
 }
 
@@ -88,7 +88,7 @@ TEST_P(TextureEnvironment, FollowsOpenGLsTableWithAndWithoutAlpha) {
     const vec4 expected = combinedByTheTable(GetParam(), color, texel, blend, channels == 4);
     expectNear(shown(scene, "Forward.color"), vec3(expected), 0.002f);
     // Eight bits of sRGB.
-    expectNear(shown(scene, "Lighting.color"), vec3(expected), 0.006f);
+    expectNear(shown(scene, "TiledLighting.color"), vec3(expected), 0.006f);
     wall.alphaMode = scene::AlphaMode::Blend;
     wall.transmission = vec3(0.f);
     expectNear(shown(scene, "Transparency.color"), vec3(expected) * expected.w, 0.002f);
@@ -206,7 +206,7 @@ TEST_F(Generated, EmissiveTexturesReflectToo) {
   material().emissive = vec3(0.5f, 2.f, 1.f);
   material().emissiveTexture.texture = 1;
   material().emissiveTexture.coordinates = Coordinates::Reflection;
-  for (const char* kept : {"Forward.color", "Lighting.color"})
+  for (const char* kept : {"Forward.color", "TiledLighting.color"})
     EXPECT_EQ(shown(scene_, kept), vec3(0.5f, 2.f, 1.f)) << kept;
 }
 

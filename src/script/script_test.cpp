@@ -24,7 +24,7 @@ TEST(Script, MakesRowsWithPlacesReadsAndParams) {
   const auto pipeline = runPipelineSource(
       "const g = pass('GBuffer');\n"
       "\n"
-      "const l = pass('Lighting', {name: 'Light', enabled: false, reads: {depth: g.depth, normal: "
+      "const l = pass('TiledLighting', {name: 'Light', enabled: false, reads: {depth: g.depth, normal: "
       "g},\n"
       "                            params: {a: 1}, b: [0.5, 2], c: 'x', d: true});\n"
       "pipeline({name: 'mine', output: l.color});\n",
@@ -37,7 +37,7 @@ TEST(Script, MakesRowsWithPlacesReadsAndParams) {
   const graph::PassRow& row = pipeline->passes[1];
   EXPECT_EQ(row.place, "test.js:3");
   EXPECT_EQ(row.name, "Light");
-  EXPECT_EQ(row.type, "Lighting");
+  EXPECT_EQ(row.type, "TiledLighting");
   EXPECT_FALSE(row.enabled);
   EXPECT_EQ(row.reads.at("depth"), "GBuffer.depth");
   EXPECT_EQ(row.reads.at("normal"), "GBuffer");

@@ -79,7 +79,7 @@ class BenchTest(unittest.TestCase):
     def test_passes_have_times_and_counts_at_both_sizes(self):
         runs, text = self.measured("passes", *small(cameras=2, rounds=3), "--size", "96x72")
         for size in ("48x36", "96x72"):
-            for row in ("Cull", "GBuffer", "ShadowMaps", "Sraa", "Lighting", "whole frame"):
+            for row in ("Cull", "GBuffer", "ShadowMaps", "Sraa", "TiledLighting", "whole frame"):
                 name = f"passes/{size}/{row}/cornell"
                 median = runs[name + "_median"]
                 self.assertEqual(median["iterations"], 6)
@@ -93,7 +93,7 @@ class BenchTest(unittest.TestCase):
         runs, text = self.measured("forward", *small(cameras=2))
         forward, deferred = (runs[f"forward/48x36/{chain}/cornell_median"] for chain in ("forward", "deferred"))
         self.assertEqual(forward["iterations"], 5)  # four frames from one camera to the next
-        self.assertEqual(forward["primitives"] + 1, deferred["primitives"])  # Lighting's triangle
+        self.assertEqual(forward["primitives"] + 1, deferred["primitives"])  # TiledLighting's triangle
         self.assertIn("| forward / deferred |", text)
 
     def test_sraa_is_nearer_to_the_truth_than_nothing(self):

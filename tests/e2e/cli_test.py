@@ -148,7 +148,7 @@ class CliTest(unittest.TestCase):
     # Pipelines, scripts, shaders: exit 5
 
     def test_faulty_pipelines(self):
-        script = self.write("p.js", "pass('Cull');\npass('GBufer');\npass('Lighting', {reads: {depth: 'Nobody.depth'}});\n")
+        script = self.write("p.js", "pass('Cull');\npass('GBufer');\npass('TiledLighting', {reads: {depth: 'Nobody.depth'}});\n")
         run = self.assert_fails(5, "p.js:2", "did you mean 'GBuffer'", "p.js:3", "Nobody",
                                 arguments=["pipeline", "check", script])
         self.assert_fails(5, "p.js:2", arguments=["render", ATRIUM, "-o", "a.png", "--pipeline", script])
@@ -267,7 +267,7 @@ class CliTest(unittest.TestCase):
     def check_costs(self, frames):
         """frames: of each its passes and then itself, as rows of numbers."""
         for *passes, frame in frames:
-            self.assertLessEqual({"Cull", "GBuffer", "Lighting", "ToneMap"}, {row["pass"] for row in passes})
+            self.assertLessEqual({"Cull", "GBuffer", "TiledLighting", "ToneMap"}, {row["pass"] for row in passes})
             for key in ("cpu_ms", "gpu_ms", "draws", "primitives"):
                 self.assertAlmostEqual(frame[key], sum(row[key] for row in passes), delta=0.001, msg=key)
             by_name = {row["pass"]: row for row in passes}

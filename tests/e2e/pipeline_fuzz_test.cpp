@@ -94,7 +94,7 @@ graph::Pipeline validPipeline(Random& random) {
   addOneOrTwo("Cull");
   if (random.below(2) == 0) {
     addOneOrTwo("GBuffer");
-    addOneOrTwo("Lighting");
+    addOneOrTwo("TiledLighting");
   } else {
     addOneOrTwo("Forward");
   }

@@ -135,12 +135,12 @@ class TruthTest(unittest.TestCase):
             for method in ("horizon", "hemisphere", "gaussian"):
                 test = self.folder / f"{method}.exr"
                 pipeline = self.folder / "ao.js"
-                pipeline.write_text(f"""pipeline({{output: "Lighting.color"}});
+                pipeline.write_text(f"""pipeline({{output: "TiledLighting.color"}});
                     pass("Cull"); pass("GBuffer");
                     pass("ScreenSpaceAo", {{method: "{method}", radius: {radius}, samples: 24}});
                     pass("SaveImage", {{file: {json.dumps(str(test))},
                                         reads: {{color: "ScreenSpaceAo.ambientVisibility"}}}});
-                    pass("Lighting");""")
+                    pass("TiledLighting");""")
                 self.run_command("render", scene, "--size", "320x180", "--pipeline", pipeline, "-o",
                                  self.folder / "picture.exr")
                 error[method] = self.compare(truth, test)["rmse"] ** 2

@@ -41,7 +41,7 @@ graph::PassRow rowOf(const std::string& type) {
 // Behind the rows of a deferred picture a row of the type, with all its parameters spelt out.
 std::string pipelineWith(const std::string& type, const graph::Registry& registry) {
   graph::Pipeline pipeline;
-  for (const char* before : {"Cull", "GBuffer", "Lighting", "Background"})
+  for (const char* before : {"Cull", "GBuffer", "TiledLighting", "Background"})
     pipeline.passes.push_back(rowOf(before));
   graph::PassRow row = rowOf(type);
   row.name = "It";

@@ -14,7 +14,7 @@
 namespace lucerna::testing {
 
 const std::vector<std::string> kDeferredRows = {
-    "Cull", "GBuffer", "Lighting", "CustomShaders", "Background", "Transparency", "ToneMap"};
+    "Cull", "GBuffer", "TiledLighting", "CustomShaders", "Background", "Transparency", "ToneMap"};
 const std::vector<std::string> kForwardRows = {"Cull", "Forward", "Background", "Transparency",
                                                "ToneMap"};
 

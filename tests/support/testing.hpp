@@ -28,11 +28,11 @@ const graph::Registry& registry();
 // Fails the running test for each debug message of severity medium or above since the last call.
 void expectNoDebugMessages();
 
-// A pipeline of rows that are named as their types: rows({"Cull", "GBuffer", "Lighting"}).
+// A pipeline of rows that are named as their types: rows({"Cull", "GBuffer", "TiledLighting"}).
 graph::Pipeline rows(const std::vector<std::string>& types);
 extern const std::vector<std::string> kDeferredRows, kForwardRows;
 
-// The values that the pipeline's ToneMap rows read, "Lighting.color": in these floats a NaN shows,
+// The values that the pipeline's ToneMap rows read, "TiledLighting.color": in these floats a NaN shows,
 // 8-bit pictures cannot hold one. Empty if the pipeline is faulty.
 std::vector<std::string> radianceNames(const graph::Pipeline& pipeline);
 
@@ -65,7 +65,7 @@ class SceneRenderer {
 
 // The picture of a pipeline, whose failure ends the test.
 Image pictureOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec2 size);
-// The value `kept` ("Lighting.color") of it instead.
+// The value `kept` ("TiledLighting.color") of it instead.
 Image valueOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec2 size,
               const std::string& kept);
 

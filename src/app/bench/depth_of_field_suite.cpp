@@ -43,7 +43,7 @@ Chain chainOf(const std::string& method, const std::string& setting, const Lens&
            {lens.focus, lens.radius}};
   return {{{"Cull"},
            {"GBuffer"},
-           {"Lighting"},
+           {"TiledLighting"},
            {"Background"},
            {"Transparency"},
            row,

@@ -24,7 +24,7 @@ Chain thesisChain() {
   return {{row("Cull"), row("GBuffer"),
            row("ScreenSpaceAo", {"method=hemisphere", "blur=box", "samples=30"}, kAo),
            row("CustomShaders"), row("ShadowMaps", {"method=lispsm", "size=2048"}),
-           row("ShadowedLighting"), row("Background"), row("Mirrors"), row("Transparency"),
+           row("TileLights"), row("TiledLighting"), row("Background"), row("Mirrors"), row("Transparency"),
            row("GeometrySamples"), row("Sraa"), row("DepthOfField", {"method=separable"}, kLens),
            row("ToneMap")}};
 }
@@ -32,14 +32,15 @@ Chain thesisChain() {
 // What can stand in their place.
 Chain otherChain() {
   return {{row("Cull"), row("GBuffer"), row("ScreenSpaceAo", {"method=horizon"}, kAo),
-           row("Lighting"), row("CustomShaders"), row("Background"), row("Transparency"),
+           row("TileLights"), row("TiledLighting", {"shadows=none"}), row("CustomShaders"),
+           row("Background"), row("Transparency"),
            row("DepthOfField", {"method=gather"}, kLens), row("ToneMap"), row("Fxaa")}};
 }
 
 const std::string kFrame = "whole frame";  // of the thesis' chain
 // What the tables call rows of the other chain; they do not show the rest, which both have.
 const std::map<std::string, std::string> kOtherRows{{"ScreenSpaceAo", "ScreenSpaceAo, horizon"},
-                                                    {"Lighting", "Lighting"},
+                                                    {"TiledLighting", "TiledLighting, no shadows"},
                                                     {"DepthOfField", "DepthOfField, gather"},
                                                     {"Fxaa", "Fxaa"}};
 
@@ -113,7 +114,7 @@ std::vector<Block> report(const Results& results) {
   std::vector<Block> blocks;
   blocks.emplace_back(
       "Time in ms: median (quartiles) over all cameras and rounds. Below the whole frame stand the "
-      "passes of a second chain, which is drawn in turn with it: Lighting without shadows, other "
+      "passes of a second chain, which is drawn in turn with it: TiledLighting without shadows, other "
       "methods of ScreenSpaceAo and DepthOfField, and Fxaa. Radius, lens and focus follow from "
       "how far away things are at each place.");
   const std::vector<std::string> sizes = results.parts(0);

@@ -18,7 +18,7 @@ Chain chainOf(const std::string& method, const std::string& size) {
   return {{{"Cull"},
            {"GBuffer"},
            {"ShadowMaps", {"method=" + method, "size=" + size}},
-           {"ShadowedLighting"},
+           {"TiledLighting"},
            {"Background"},
            {"ToneMap", {"operator=linear"}}}};
 }
@@ -36,11 +36,11 @@ Result<Image> traced(const Run& run) {
   return asShown(picture.color);
 }
 
-// ShadowMaps and ShadowedLighting together: a better map may cost in either.
+// ShadowMaps and TiledLighting together: a better map may cost in either.
 void addTimes(Measurement& m, const graph::FrameProfile& profile) {
   double real = 0, cpu = 0, maps = 0;
   for (const graph::StepProfile& step : profile.steps) {
-    if (step.row != "ShadowMaps" && step.row != "ShadowedLighting") continue;
+    if (step.row != "ShadowMaps" && step.row != "TiledLighting") continue;
     real += step.gpuMs;
     cpu += step.cpuMs;
     if (step.row == "ShadowMaps") maps = step.gpuMs;
@@ -103,7 +103,7 @@ Table ratioTable(const Results& results, const std::vector<std::string>& sizes) 
 std::vector<Block> report(const Results& results) {
   std::vector<Block> blocks;
   blocks.emplace_back(
-      "Time of ShadowMaps and ShadowedLighting together in ms, and the distance of the picture "
+      "Time of ShadowMaps and TiledLighting together in ms, and the distance of the picture "
       "from a traced one with the same hard shadows of the sun; all surfaces are plain. Over all "
       "cameras. A map of cascades is one of four.");
   const std::vector<std::string> sizes = mapSizes(results), scenes = results.parts(2);

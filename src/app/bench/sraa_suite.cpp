@@ -38,7 +38,7 @@ Chain chainOf(const std::string& technique, const std::string& effects) {
   if (all) chain.rows.push_back({"ScreenSpaceAo", {}, {{"radius", kAoRadius}}});
   chain.rows.insert(
       chain.rows.end(),
-      {{"Lighting"}, {"CustomShaders"}, {"Background"}, {"Mirrors"}, {"Transparency"}});
+      {{"TiledLighting"}, {"CustomShaders"}, {"Background"}, {"Mirrors"}, {"Transparency"}});
   if (all) {
     smooth(chain);
     chain.rows.push_back(

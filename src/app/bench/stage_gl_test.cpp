@@ -26,7 +26,7 @@ void lookFromSomewhere(Stage& stage, std::uint64_t seed = 0) {
   EXPECT_TRUE(looked) << looked.error().message;
 }
 
-const Chain kDeferred{{{"Cull"}, {"GBuffer"}, {"Lighting"}, {"Background"}, {"ToneMap"}}};
+const Chain kDeferred{{{"Cull"}, {"GBuffer"}, {"TiledLighting"}, {"Background"}, {"ToneMap"}}};
 
 TEST(Stage, VariantsDoNotDisturbEachOther) {
   const auto stage = open("builtin:cornell");

@@ -7,7 +7,7 @@
 namespace lucerna {
 namespace {
 
-const std::vector<std::string> kRows = {"Cull", "GBuffer", "Lighting", "Background"};
+const std::vector<std::string> kRows = {"Cull", "GBuffer", "TiledLighting", "Background"};
 
 // Four colours: top left red, top right green, bottom left blue, bottom right white; times `scale`.
 scene::Texture quarters(float scale) {

@@ -37,7 +37,7 @@ void CustomShaders::describe(graph::PassInfo<Params, Ports>& d) {
       .sameSizeAs("depth")
       .optional()
       .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
-      .help("Linear radiance; before Lighting a picture that is black but for these objects.");
+      .help("Linear radiance; before TiledLighting a picture that is black but for these objects.");
 }
 
 void CustomShaders::execute(graph::PassContext& context, const Params& params, const Ports& ports) {

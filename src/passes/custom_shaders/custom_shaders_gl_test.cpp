@@ -20,9 +20,9 @@ struct Way {
   std::vector<std::string> rows;
   std::string value;
 };
-const Way kAfter{{"Cull", "GBuffer", "Lighting", "CustomShaders", "Background", "Transparency"},
+const Way kAfter{{"Cull", "GBuffer", "TiledLighting", "CustomShaders", "Background", "Transparency"},
                  "Transparency.color"};
-const Way kBefore{{"Cull", "GBuffer", "CustomShaders", "Lighting", "Background", "Transparency"},
+const Way kBefore{{"Cull", "GBuffer", "CustomShaders", "TiledLighting", "Background", "Transparency"},
                   "Transparency.color"};
 const Way kForward{{"Cull", "Forward", "Background", "Transparency"}, "Transparency.color"};
 

@@ -78,11 +78,11 @@ class FullscreenRowTest : public testing::Test {
   graph::PassDescription describe(const std::string& shader) const {
     return registry_.find("Fullscreen")->describe({{"shader", shader}});
   }
-  // Cull, GBuffer, Lighting and the row.
+  // Cull, GBuffer, TiledLighting and the row.
   static graph::Pipeline pipelineWith(graph::ParamValues params,
                                       std::map<std::string, std::string> reads = {}) {
     graph::Pipeline pipeline;
-    for (const char* type : {"Cull", "GBuffer", "Lighting", "Fullscreen"}) {
+    for (const char* type : {"Cull", "GBuffer", "TiledLighting", "Fullscreen"}) {
       graph::PassRow& row = pipeline.passes.emplace_back();
       row.name = row.type = type;
     }
@@ -179,7 +179,7 @@ TEST_F(FullscreenRowTest, EveryMisfitIsOneFaultThatNamesIt) {
               HasSubstr("WrongValueType: row 4, pass 'Fullscreen', parameter 'amount'"));
   EXPECT_THAT(faultOf(pipelineWith({{"shader", shader}, {"amount", 2.0}})),
               HasSubstr("ValueOutOfRange"));
-  EXPECT_THAT(faultOf(pipelineWith({{"shader", shader}}, {{"colour", "Lighting.color"}})),
+  EXPECT_THAT(faultOf(pipelineWith({{"shader", shader}}, {{"colour", "TiledLighting.color"}})),
               HasSubstr("UnknownPort: row 4, pass 'Fullscreen', reads 'colour'"));
   EXPECT_THAT(faultOf(pipelineWith({{"shader", shader}}, {{"color", "GBuffer.material"}})),
               HasSubstr("FormatMismatch"));

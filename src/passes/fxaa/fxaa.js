@@ -3,7 +3,7 @@ pipeline({name: "fxaa", output: "Fxaa.color"});
 
 pass("Cull");
 pass("GBuffer");
-pass("Lighting");
+pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");
 pass("Mirrors");

@@ -18,7 +18,7 @@ TEST(GeometrySamples, DrawsWhatGBufferDraws) {
   testing::SceneRenderer renderer(scene);
   renderer.profiling = true;
   const auto output = renderer.render(
-      testing::rows({"Cull", "GBuffer", "Lighting", "ToneMap", "GeometrySamples", "Sraa"}),
+      testing::rows({"Cull", "GBuffer", "TiledLighting", "ToneMap", "GeometrySamples", "Sraa"}),
       {64, 36});
   ASSERT_TRUE(output) << output.error().message;
   const gpu::Counters expected = countersOf(output->profile, "GBuffer");

@@ -72,7 +72,7 @@ TEST_F(SaveImageTest, WritesThePictureAsItIsAtItsPlace) {
     const auto& types = testing::kDeferredRows;
     return static_cast<std::size_t>(std::ranges::find(types, type) - types.begin()) + 1;
   };
-  const Image lit = at(behind("Lighting"), "lit.exr");
+  const Image lit = at(behind("TiledLighting"), "lit.exr");
   const Image withBackground = at(behind("Background"), "background.exr");
   EXPECT_FALSE(std::ranges::equal(lit.bytes(), withBackground.bytes()));
   EXPECT_EQ(lit.pixel<float>(0, 0)[0], 0.f);

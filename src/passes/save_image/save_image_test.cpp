@@ -108,7 +108,7 @@ std::string faultsOf(const std::string& file, const std::string& reads) {
   graph::Registry registry;
   registerPasses(registry);
   graph::Pipeline pipeline;
-  for (const char* type : {"Cull", "GBuffer", "SaveImage", "Lighting", "ToneMap"})
+  for (const char* type : {"Cull", "GBuffer", "SaveImage", "TiledLighting", "ToneMap"})
     pipeline.passes.push_back({.name = type, .type = type, .reads = {}, .params = {}});
   pipeline.passes[2].params["file"] = file;
   pipeline.passes[2].reads["color"] = reads;

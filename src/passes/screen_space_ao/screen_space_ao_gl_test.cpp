@@ -14,7 +14,7 @@ class ScreenSpaceAo : public ::testing::TestWithParam<std::string> {
   void TearDown() override { testing::expectNoDebugMessages(); }
 
   static graph::Pipeline rows(const graph::ParamValues& params) {
-    graph::Pipeline pipeline = testing::rows({"Cull", "GBuffer", "ScreenSpaceAo", "Lighting"});
+    graph::Pipeline pipeline = testing::rows({"Cull", "GBuffer", "ScreenSpaceAo", "TiledLighting"});
     pipeline.passes[2].params = params;
     return pipeline;
   }
@@ -86,9 +86,9 @@ TEST_P(ScreenSpaceAo, DimsAmbientLightAlone) {
     scene.ambient = vec3(ambient ? 1.f : 0.f);
     for (scene::Light& light : scene.lights) light.ambientIntensity = 0.f;
     const Image with = testing::valueOf(scene, rows({{"radius", 2.0}, {"method", GetParam()}}),
-                                        kSize, "Lighting.color");
-    const Image without = testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "Lighting"}),
-                                           kSize, "Lighting.color");
+                                        kSize, "TiledLighting.color");
+    const Image without = testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "TiledLighting"}),
+                                           kSize, "TiledLighting.color");
     EXPECT_EQ(std::ranges::equal(with.bytes(), without.bytes()), !ambient);
   }
 }
@@ -97,7 +97,7 @@ TEST_P(ScreenSpaceAo, DimsAmbientLightAlone) {
 TEST_P(ScreenSpaceAo, MultipliesThePictureIfTold) {
   const scene::Scene scene = testing::sampleScene();
   graph::Pipeline pipeline =
-      testing::rows({"Cull", "GBuffer", "Lighting", "Background", "ScreenSpaceAo"});
+      testing::rows({"Cull", "GBuffer", "TiledLighting", "Background", "ScreenSpaceAo"});
   pipeline.passes.back().params = {{"apply", "multiply"}, {"radius", 2.0}, {"method", GetParam()}};
   testing::SceneRenderer renderer(scene);
   const auto output = renderer.render(

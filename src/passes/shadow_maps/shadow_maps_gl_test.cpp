@@ -9,7 +9,7 @@ namespace lucerna {
 namespace {
 
 constexpr uvec2 kSize{65, 65};  // odd: the middle pixel looks along the axis
-const std::vector<std::string> kRows{"Cull", "GBuffer", "ShadowMaps", "ShadowedLighting"};
+const std::vector<std::string> kRows{"Cull", "GBuffer", "ShadowMaps", "TiledLighting"};
 
 // A wall before the camera of emptyScene(), 6 m away.
 scene::Scene wallScene() {
@@ -69,7 +69,7 @@ TEST(ShadowMaps, LampsBeyondTheBudgetLightWithoutShadows) {
   addLamp(scene, scene::LightKind::Point, {0, 0, 4}, {0, 0, -1});
   graph::Pipeline pipeline = testing::rows(kRows);
   const auto center = [&] {
-    return testing::centerOf(testing::valueOf(scene, pipeline, kSize, "ShadowedLighting.color"));
+    return testing::centerOf(testing::valueOf(scene, pipeline, kSize, "TiledLighting.color"));
   };
   EXPECT_EQ(center(), vec3(0.f));
   pipeline.passes[2].params["localLights"] = std::int64_t{0};
@@ -82,7 +82,7 @@ TEST(ShadowMaps, WhatIsInsideALampThrowsNoShadow) {
   addLamp(scene, scene::LightKind::Point, {0, 0, -2}, {0, 0, -3});
   const auto center = [&] {
     return testing::centerOf(
-        testing::valueOf(scene, testing::rows(kRows), kSize, "ShadowedLighting.color"));
+        testing::valueOf(scene, testing::rows(kRows), kSize, "TiledLighting.color"));
   };
   scene.nodes[scene.objects.back().node].translation.x += 2.f;  // out of the picture's middle
   scene.nodes[scene.lights.back().node].translation.x += 2.f;

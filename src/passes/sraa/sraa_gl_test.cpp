@@ -13,7 +13,7 @@
 namespace lucerna {
 namespace {
 
-const std::vector<std::string> kRows = {"Cull",       "GBuffer", "Lighting",        "CustomShaders",
+const std::vector<std::string> kRows = {"Cull",       "GBuffer", "TiledLighting",        "CustomShaders",
                                         "Background", "ToneMap", "GeometrySamples", "Sraa"};
 
 // By the surfaces' depth, and by their normals too.
@@ -85,10 +85,10 @@ TEST_P(Sraa, LeavesUniformAreasAndTheirTexturesAlone) {
         << "there is a texture";
 
     graph::Pipeline radiance =
-        rows({"Cull", "GBuffer", "Lighting", "GeometrySamples", "Sraa", "ToneMap"});
+        rows({"Cull", "GBuffer", "TiledLighting", "GeometrySamples", "Sraa", "ToneMap"});
     graph::PassRow& untouched = radiance.passes.emplace_back(row(radiance, "ToneMap"));
     untouched.name = "Untouched";
-    untouched.reads["color"] = "Lighting.color";
+    untouched.reads["color"] = "TiledLighting.color";
     const auto [without, with] =
         beforeAndAfter(scene, radiance, "Untouched.color", "ToneMap.color");
     EXPECT_LE(greatestDifference(without, with), 1);
@@ -224,7 +224,7 @@ TEST_P(Sraa, ComesNearerToTheTruthThanFxaa) {
   const scene::Scene scene = card();
   const Distance distance(scene, rows());
   const graph::Pipeline fxaa =
-      rows({"Cull", "GBuffer", "Lighting", "Background", "ToneMap", "Fxaa"});
+      rows({"Cull", "GBuffer", "TiledLighting", "Background", "ToneMap", "Fxaa"});
   EXPECT_GT(distance.psnr(rows(), "Sraa.color"), distance.psnr(rows(), "ToneMap.color") + 6.);
   EXPECT_GT(distance.psnr(rows(), "Sraa.color"), distance.psnr(fxaa, "Fxaa.color") + 1.);
 }

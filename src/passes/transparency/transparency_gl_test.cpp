@@ -9,7 +9,7 @@ constexpr uvec2 kSize{9, 9};
 
 Image radiance(const scene::Scene& scene) {
   return testing::valueOf(
-      scene, testing::rows({"Cull", "GBuffer", "Lighting", "Background", "Transparency"}), kSize,
+      scene, testing::rows({"Cull", "GBuffer", "TiledLighting", "Background", "Transparency"}), kSize,
       "Transparency.color");
 }
 

@@ -1,4 +1,5 @@
-// What both shaders of ShadowedLighting need: the surface, and the light that reaches it.
+// What both shaders need for shadows: the surface, and the light that reaches it.
+#define LIGHT_VISIBILITY
 #include "render/read_gbuffer.glsl"
 #include "render/shading.glsl"
 #include "render/shadows.glsl"

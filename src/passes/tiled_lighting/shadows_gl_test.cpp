@@ -34,15 +34,35 @@ std::vector<Case> cases() {
 graph::Pipeline shadowRows(const std::string& method = "lispsm",
                            const std::vector<std::string>& types = {"Cull", "GBuffer",
                                                                     "CustomShaders", "ShadowMaps",
-                                                                    "ShadowedLighting"}) {
+                                                                    "TiledLighting"}) {
   graph::Pipeline pipeline = testing::rows(types);
   for (graph::PassRow& row : pipeline.passes)
     if (row.type == "ShadowMaps") row.params["method"] = method;
   return pipeline;
 }
 
+struct Filter {
+  const char* shadows;
+  int kernel;
+  const char* comparison;
+  std::string name() const { return fmt::format("{} {}, {}", shadows, kernel, comparison); }
+};
+constexpr std::array<Filter, 6> kFilters{{{"hard", 1, "nearest"},
+                                          {"hard", 1, "filtered"},
+                                          {"pcf", 3, "filtered"},
+                                          {"pcf", 5, "nearest"},
+                                          {"pcf", 11, "filtered"},
+                                          {"pcf", 23, "filtered"}}};
+
+void setFilter(graph::Pipeline& pipeline, const Filter& filter) {
+  graph::ParamValues& params = pipeline.passes.back().params;
+  params["shadows"] = std::string(filter.shadows);
+  params["kernel"] = filter.kernel;
+  params["comparison"] = std::string(filter.comparison);
+}
+
 Image shadowed(const scene::Scene& scene, const graph::Pipeline& pipeline) {
-  return testing::valueOf(scene, pipeline, kSize, "ShadowedLighting.color");
+  return testing::valueOf(scene, pipeline, kSize, "TiledLighting.color");
 }
 
 void addLamp(scene::Scene& scene, scene::LightKind kind, vec3 eye, vec3 target) {
@@ -87,7 +107,7 @@ class Shadows : public ::testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(Of, Shadows, ::testing::ValuesIn(cases()),
                          [](const auto& parameter) { return parameter.param.name; });
 
-// Neither acne nor anything else: a wall that nothing stands before is lit as Lighting lights it,
+// Neither acne nor anything else: a wall that nothing stands before is lit as TiledLighting lights it,
 // at every angle of the light, whatever its normal map says.
 TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
   for (const bool leaning : {false, true})
@@ -102,15 +122,15 @@ TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
       addLamp(scene, GetParam().kind, target + 4.f * toLight, target);
       updateTransforms(scene);
       const Image plain = testing::asFloatRgb(testing::valueOf(
-          scene, testing::rows({"Cull", "GBuffer", "Lighting"}), kSize, "Lighting.color"));
-      for (const char* filter : {"nearest", "hardware", "3x3", "9x9"}) {
+          scene, testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize, "TiledLighting.color"));
+      for (const Filter& filter : kFilters) {
         graph::Pipeline pipeline = shadowRows(GetParam().method);
-        pipeline.passes.back().params["filter"] = filter;
+        setFilter(pipeline, filter);
         const Image found = testing::asFloatRgb(shadowed(scene, pipeline));
         float worst = 0.f;
         for (std::size_t i = 0; i < plain.as<float>().size(); ++i)
           worst = std::max(worst, std::abs(plain.as<float>()[i] - found.as<float>()[i]));
-        EXPECT_LE(worst, 1.f / 255.f) << filter << ", light at " << degrees << " degrees"
+        EXPECT_LE(worst, 1.f / 255.f) << filter.name() << ", light at " << degrees << " degrees"
                                       << (leaning ? ", leaning normals" : "");
       }
     }
@@ -130,12 +150,12 @@ TEST_P(Shadows, NoLightLeaksWhereMapsMeet) {
     addLamp(scene, GetParam().kind, eye, {0.1f, 0.2f, -6});
   }
   updateTransforms(scene);
-  for (const char* filter : {"nearest", "hardware", "3x3", "5x5", "9x9"}) {
+  for (const Filter& filter : kFilters) {
     graph::Pipeline pipeline = shadowRows(GetParam().method);
-    pipeline.passes.back().params["filter"] = filter;
+    setFilter(pipeline, filter);
     const Image found = testing::asFloatRgb(shadowed(scene, pipeline));
     EXPECT_EQ(std::ranges::count_if(found.as<float>(), [](float v) { return v > 0.f; }), 0)
-        << filter;
+        << filter.name();
   }
 }
 
@@ -215,7 +235,7 @@ TEST_P(Shadows, PixelsOfCustomShadersDarkenByTheDiffuseShare) {
     };
     const std::vector<std::string> own{"Cull", "GBuffer", "CustomShaders"};
     const std::vector<std::string> all{"Cull", "GBuffer", "CustomShaders", "ShadowMaps",
-                                       "ShadowedLighting"};
+                                       "TiledLighting"};
     const vec3 before = testing::centerOf(picture(own));
     ASSERT_GT(before.x, 0.01f);
     EXPECT_EQ(testing::centerOf(picture(all)), before);

@@ -1,4 +1,4 @@
-// One surface, one light, one formula; through Lighting and through Forward.
+// One surface, one light, one formula; through TiledLighting and through Forward.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,15 +22,15 @@ scene::Light lightOf(scene::LightKind kind, float intensity) {
 class Shading : public ::testing::TestWithParam<std::string> {
  protected:
   Image radiance(const scene::Scene& scene) const {
-    const bool deferred = GetParam() == "Lighting";
+    const bool deferred = GetParam() == "TiledLighting";
     const graph::Pipeline pipeline =
-        testing::rows(deferred ? std::vector<std::string>{"Cull", "GBuffer", "Lighting"}
+        testing::rows(deferred ? std::vector<std::string>{"Cull", "GBuffer", "TiledLighting"}
                                : std::vector<std::string>{"Cull", "Forward"});
     return testing::valueOf(scene, pipeline, kSize, GetParam() + ".color");
   }
   void TearDown() override { testing::expectNoDebugMessages(); }
 };
-INSTANTIATE_TEST_SUITE_P(By, Shading, ::testing::Values("Lighting", "Forward"),
+INSTANTIATE_TEST_SUITE_P(By, Shading, ::testing::Values("TiledLighting", "Forward"),
                          [](const auto& parameter) { return parameter.param; });
 
 void expectNear(vec3 found, vec3 expected, float relative) {

@@ -1,8 +1,9 @@
 // Darkens a pixel of an object that was drawn by its own shader: nobody knows how that uses the light,
 // so the picture loses the share that a white Phong surface in its place would lose.
 //   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
-// variant: AMBIENT_VISIBILITY=1
-#include "passes/shadowed_lighting/visibility.glsl"
+//   TILE_LIGHTS         see render/tile_lights.glsl
+// variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1
+#include "passes/tiled_lighting/visibility.glsl"
 
 layout(location = 0) out vec4 factor;  // multiplies what is there
 
@@ -12,7 +13,7 @@ void main() {
   if (s.type != kTypeCustom) discard;
   vec3 lit = ambientScale * ambientLight.rgb * s.occlusion;
   vec3 shadowed = lit;
-  for (uint i = 0u; i < lightCount.x; ++i) {
+  for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i)) {
     if (!mayLight(lights[i], s.positionW, s.normalW)) continue;
     LightSample light = sampleLight(lights[i], s.positionW);
     vec3 diffuse = light.irradiance * max(dot(s.normalW, light.toLightW), 0.0) / kPi;

@@ -1,0 +1,154 @@
+#include "passes/tiled_lighting/tiled_lighting.hpp"
+
+#include <algorithm>
+
+namespace lucerna::passes {
+
+using gpu::Format;
+
+namespace {
+
+void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports>& d) {
+  using Params = TiledLighting::Params;
+  d.param("shadows", &Params::shadows)
+      .choices({"none", "hard", "pcf"})
+      .rebuilds(graph::Rebuild::Ports)
+      .help(
+          "hard: one comparison with the shadow map; pcf: percentage-closer filtering, the mean of "
+          "kernel x kernel comparisons a texel apart.");
+  d.param("kernel", &Params::kernel)
+      .range(1, 23)
+      .help("pcf: comparisons along each side, odd; an even number is taken as the next.");
+  d.param("comparison", &Params::comparison)
+      .choices({"nearest", "filtered"})
+      .help("nearest: with one depth; filtered: the hardware's mean of the four around the point.");
+  d.param("bias", &Params::bias)
+      .range(0, 100)
+      .unit("m")
+      .help("How far a point is moved towards the light before it is compared.");
+  d.param("normalBias", &Params::normalBias)
+      .range(0, 16)
+      .help(
+          "How far a point is moved off its surface before it is compared, as a factor on what "
+          "keeps a plane from shadowing itself: the filter's reach there times the slope.");
+}
+
+int radiusOf(const TiledLighting::Params& params) {
+  return params.shadows == TiledLighting::Shadows::Pcf ? params.kernel / 2 : 0;
+}
+
+}  // namespace
+
+void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
+  d.pass("TiledLighting",
+         "Shades the G-buffer with the ambient light and all lights, less what shadow maps block.");
+  d.param("ambient", &Params::ambient).range(0, 100).help("Factor on the scene's ambient light.");
+  describeShadows(d);
+  const bool shadows = d.values().shadows != Shadows::None;
+  d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
+  d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("tileLights", &Ports::tileLights)
+      .optional()
+      .help("Which lights may reach a pixel; without it each pixel tries them all.");
+  d.read("depth", &Ports::depth).texture(Format::Depth32F).halo(shadows ? 1 : 0).help("Reversed depth.");
+  const auto read = [&](const char* name, graph::In<gpu::Texture> Ports::* member, Format format,
+                        const char* help) {
+    auto port = d.read(name, member);
+    port.texture(format).sameSizeAs("depth").help(help);
+    return port;
+  };
+  read("normal", &Ports::normal, Format::Rg16Unorm, "View-space normal, octahedral.");
+  read("albedo", &Ports::albedo, Format::Srgb8Alpha8, "Diffuse or base colour.");
+  read("specular", &Ports::specular, Format::Srgb8Alpha8,
+       "Specular and occlusion of ambient light.");
+  read("material", &Ports::material, Format::Rgba8Uint, "Type, shininess or roughness, metallic.");
+  read("emissive", &Ports::emissive, Format::R11G11B10Float, "Radiance.");
+  read("ambientVisibility", &Ports::ambientVisibility, Format::R8Unorm,
+       "Share of the ambient light that arrives.")
+      .optional();
+  if (shadows) {
+    d.read("scene", &Ports::scene).help("Whether there are custom shaders, whose pixels darken.");
+    d.read("shadowMaps", &Ports::shadowMaps)
+        .optional()
+        .help("What each light sees; without it there are no shadows.");
+  }
+  d.update("color", &Ports::color)
+      .texture(Format::Rgba16Float)
+      .sizeOf("depth")
+      .sameSizeAs("depth")
+      .optional()
+      .whenDisabled(vec4(0.f, 0.f, 0.f, 1.f))
+      .help(
+          "Linear radiance, emission included. Pixels of custom shaders that were drawn before "
+          "darken in shadows; those where nothing was drawn stay as they were; black if nothing "
+          "was there.");
+}
+
+const gpu::Program& TiledLighting::programOf(const char* shader, const Ports& ports) {
+  gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
+                        .fragment = fmt::format("passes/tiled_lighting/{}.frag", shader)};
+  if (ports.ambientVisibility) desc.defines["AMBIENT_VISIBILITY"] = "1";
+  if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
+  if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
+  gpu::ProgramPtr& program = programs_[desc];
+  if (!program) program = device_.program(desc);
+  return *program;
+}
+
+// Draws onto `color`, made black if it is new, with everything bound that the ports hold.
+gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params,
+                                    const Ports& ports) {
+  gpu::Rendering rendering = device.render({
+      .colors = {{ports.color.get(), ports.color.isNew() ? gpu::Load::Clear : gpu::Load::Keep,
+                  vec4(0.f, 0.f, 0.f, 1.f)}},
+      .depth = {ports.depth.get()},
+  });
+  rendering.buffer("ViewBlock", ports.view->block);
+  rendering.buffer("LightBlock", ports.lights->block);
+  if (ports.tileLights) rendering.buffer("TileLightBlock", ports.tileLights->block);
+  rendering.texture("depth", *ports.depth, gpu::kNearest);
+  rendering.texture("normal", *ports.normal, gpu::kNearest);
+  rendering.texture("albedo", *ports.albedo, gpu::kNearest);
+  rendering.texture("specular", *ports.specular, gpu::kNearest);
+  rendering.texture("material", *ports.material, gpu::kNearest);
+  rendering.texture("emissive", *ports.emissive, gpu::kNearest);
+  if (ports.ambientVisibility)
+    rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
+  if (ports.shadowMaps)
+    render::bindShadowMaps(rendering, *ports.shadowMaps,
+                           params.comparison == Comparison::Filtered);
+  return rendering;
+}
+
+// The triangle lies at depth 0 and passes where something nearer was drawn, so that empty pixels
+// cost nothing. Depth is tested and read, never written.
+void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Params& params,
+                         const Ports& ports, gpu::Blend blend) {
+  const gpu::Program& program = programOf(shader, ports);
+  rendering.use(program, {.depthTest = true,
+                          .depthCompare = gpu::Compare::Less,
+                          .blend = blend,
+                          .cull = gpu::Cull::None});
+  program.set("ambientScale", params.ambient);
+  if (ports.shadowMaps) {
+    const int radius = radiusOf(params);
+    program.set("shadowFilterRadius", radius);
+    program.set("shadowFilterReach", static_cast<float>(radius) +
+                                         (params.comparison == Comparison::Filtered ? 1.f : 0.5f));
+    program.set("shadowBias", params.bias);
+    program.set("shadowNormalBias", params.normalBias);
+  }
+  rendering.fullscreen();
+}
+
+void TiledLighting::execute(graph::PassContext& context, const Params& params,
+                            const Ports& ports) {
+  gpu::Rendering rendering = begin(context.device, params, ports);
+  const auto usesOwnShader = [](const scene::Material& material) { return material.shader.used(); };
+  if (ports.shadowMaps && !ports.color.isNew() &&
+      std::ranges::any_of(ports.scene->scene->materials, usesOwnShader))
+    draw(rendering, "darken", params, ports, gpu::Blend::Multiply);
+  draw(rendering, "tiled_lighting", params, ports, gpu::Blend::Off);
+}
+
+}  // namespace lucerna::passes

@@ -1,0 +1,27 @@
+// Shades one pixel of the G-buffer.
+//   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
+//   TILE_LIGHTS         see render/tile_lights.glsl
+//   SHADOWS             shadow maps say how much of each light arrives
+// variant: AMBIENT_VISIBILITY=1
+// variant: TILE_LIGHTS=1
+// variant: SHADOWS=1
+// variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1 SHADOWS=1
+#ifdef SHADOWS
+#include "passes/tiled_lighting/visibility.glsl"
+#else
+#include "render/read_gbuffer.glsl"
+#include "render/shading.glsl"
+#endif
+
+layout(location = 0) out vec4 color;
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+#ifdef SHADOWS
+  Surface s = shadowedSurface(pixel);
+#else
+  Surface s = readSurface(pixel);
+#endif
+  if (s.type == kTypeCustom) discard;  // CustomShaders draws it, before or after
+  color = vec4(shade(s), 1.0);
+}

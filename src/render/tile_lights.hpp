@@ -1,0 +1,16 @@
+// Which lights may reach which tiles of a picture, as TileLights finds them and
+// render/tile_lights.glsl reads them.
+#pragma once
+
+#include "gpu/device.hpp"
+
+namespace lucerna::render {
+
+struct TileLights {
+  static constexpr const char* kPortName = "TileLights";
+  gpu::Buffer block;  // TileLightBlock
+};
+
+inline constexpr int kLightTile = 16;  // px, side of a tile; as in render/tile_lights.glsl
+
+}  // namespace lucerna::render
