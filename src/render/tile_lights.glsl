@@ -4,7 +4,8 @@
 //   WRITE_TILE_LIGHTS  for the pass that finds them
 const uint kLightTile = 16u;  // px, side of a tile, as in render/tile_lights.hpp
 
-#if defined(WRITE_TILE_LIGHTS)
+#if defined(WRITE_TILE_LIGHTS) || defined(TILE_LIGHTS)
+#ifdef WRITE_TILE_LIGHTS
 layout(std430) writeonly buffer TileLightBlock {
 #else
 layout(std430) readonly buffer TileLightBlock {
@@ -12,6 +13,7 @@ layout(std430) readonly buffer TileLightBlock {
   uvec4 tileGrid;    // tiles across; words that each tile has
   uint tileWords[];  // a bit for each light, 32 to a word
 };
+#endif
 
 #ifdef TILE_LIGHTS
 // All pixels of a tile go through their loops alike: see docs/dev/drivers.md.

@@ -79,7 +79,8 @@ TEST_F(TileLights, LeaveOutNoLightThatReachesAPixel) {
 // Bits that are set in all tiles.
 std::size_t bitsIn(const scene::Scene& scene, float* meanBits = nullptr) {
   testing::SceneRenderer renderer(scene);
-  auto output = renderer.render(testing::rows({"Cull", "GBuffer"}), kSize, {"GBuffer.depth"});
+  auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
+                                {"GBuffer.depth"});
   CHECK(static_cast<bool>(output), "{}", output.error().message);
   const Image& depth = output->kept.at("GBuffer.depth");
   const gpu::Texture texture = testing::device().createTexture(

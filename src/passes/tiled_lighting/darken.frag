@@ -3,6 +3,7 @@
 //   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
 //   TILE_LIGHTS         see render/tile_lights.glsl
 // variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1
+#define LIGHT_VISIBILITY
 #include "passes/tiled_lighting/visibility.glsl"
 
 layout(location = 0) out vec4 factor;  // multiplies what is there

@@ -7,10 +7,12 @@
 // variant: SHADOWS=1
 // variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1 SHADOWS=1
 #ifdef SHADOWS
-#include "passes/tiled_lighting/visibility.glsl"
-#else
+#define LIGHT_VISIBILITY
+#endif
 #include "render/read_gbuffer.glsl"
 #include "render/shading.glsl"
+#ifdef SHADOWS
+#include "passes/tiled_lighting/visibility.glsl"
 #endif
 
 layout(location = 0) out vec4 color;

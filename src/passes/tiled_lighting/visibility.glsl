@@ -1,5 +1,4 @@
 // What both shaders need for shadows: the surface, and the light that reaches it.
-#define LIGHT_VISIBILITY
 #include "render/read_gbuffer.glsl"
 #include "render/shading.glsl"
 #include "render/shadows.glsl"
