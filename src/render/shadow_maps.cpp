@@ -42,7 +42,8 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
                     .axisW = vec4(vec3(glm::transpose(map.projection.viewFromWorld)[2]),
                                   map.projection.depthRange),
                     .depthPlaneW = map.projection.depthPlaneW,
-                    .inner = vec4(map.projection.inner, 0.f, 0.f, 0.f),
+                    .inner = vec4(map.projection.inner, map.projection.clipFromView[3][2],
+                                  map.projection.clipFromView[2][2], 0.f),
                     .place = uvec4(map.layer, map.local ? 1 : 0, 0, 0)});
   }
   std::vector<uvec4> lights;
@@ -65,6 +66,8 @@ void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool 
   commands.buffer("ShadowLightBlock", shadowMaps.lightBlock);
   commands.texture("directionalShadowMaps", shadowMaps.directional, sampler);
   commands.texture("localShadowMaps", shadowMaps.local, sampler);
+  commands.texture("directionalShadowDepths", shadowMaps.directional, gpu::kNearest);
+  commands.texture("localShadowDepths", shadowMaps.local, gpu::kNearest);
 }
 
 }  // namespace lucerna::render

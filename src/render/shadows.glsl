@@ -1,4 +1,5 @@
 // What shadow maps (render/shadow_maps.hpp) say of a point: how much of a light reaches it.
+#include "render/lights.glsl"
 #include "render/view.glsl"
 
 layout(std430) readonly buffer ShadowMapBlock { ShadowMapValues shadowMaps[]; };
@@ -6,13 +7,17 @@ layout(std430) readonly buffer ShadowLightBlock { uvec4 lightShadows[]; };  // f
 
 uniform sampler2DArrayShadow directionalShadowMaps;
 uniform sampler2DArrayShadow localShadowMaps;
+uniform sampler2DArray directionalShadowDepths;  // the same, as they are
+uniform sampler2DArray localShadowDepths;
 
-// Percentage-closer filtering (Reeves, Salesin and Cook, SIGGRAPH 1987) over (2 r + 1)^2 comparisons
-// a texel apart; each is bilinear where the sampler filters.
+// How far from where it is looked up, in texels along each side, the depths lie that a comparison reads: half a texel
+// for the nearest one alone, a whole one for the four of the hardware's mean.
+uniform float shadowReach = 1.0;
+// Percentage-closer filtering (Reeves, Salesin and Cook, SIGGRAPH 1987) over (2 r + 1)^2 comparisons.
 uniform int shadowFilterRadius = 0;
-// How far from the point, in texels along each side, the depths lie that it is compared with: half a
-// texel for the nearest one alone, a whole one for the four of the hardware's mean, and the radius.
-uniform float shadowFilterReach = 1.0;
+// Percentage-closer soft shadows (Fernando, SIGGRAPH 2005 sketches): (2 r + 1)^2 depths are searched for blockers;
+// negative: comparisons are a texel apart, as if all lights had no size.
+uniform int shadowSearchRadius = -1;
 // How far a point is moved before it is compared: towards the light in m, and off its surface as a
 // factor on what movedForShadow() finds necessary.
 uniform float shadowBias = 0.0;
@@ -23,33 +28,22 @@ const float kPositionRounding = 2e-5;
 // Of depth in a map and of what it is made from, as a share of their range.
 const float kMapRounding = 5e-7;
 
-float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
-  vec4 at = vec4(uvDepth.xy, float(map.place.x), uvDepth.z);
-  return map.place.y == 0u ? texture(directionalShadowMaps, at) : texture(localShadowMaps, at);
-}
+bool isDirectional(ShadowMapValues map) { return map.place.y == 0u; }
 
-float filteredShadow(ShadowMapValues map, vec3 uvDepth) {
-  float sum = 0.0;
-  for (int y = -shadowFilterRadius; y <= shadowFilterRadius; ++y)
-    for (int x = -shadowFilterRadius; x <= shadowFilterRadius; ++x)
-      sum += shadowComparison(map, uvDepth + vec3(vec2(x, y) * map.texel.z, 0.0));
-  float side = 2.0 * float(shadowFilterRadius) + 1.0;
-  return sum / (side * side);
-}
+// What a texel covers at a point of clip-space w, m.
+vec2 texelSize(ShadowMapValues map, float w) { return map.texel.xy * (isDirectional(map) ? vec2(w, w * w) : vec2(w)); }
 
-// A filter compares one depth with those of the surface beside it, which are nearer to the light by up
-// to its reach over the map times the surface's slope there. Moved off the surface by reach times the
-// sine of the slope, a plane never shadows itself.
+// A comparison reads the depths of the surface beside the point, which are nearer to the light by up to its reach over
+// the map times the surface's slope there. Moved off the surface by reach times the sine of the slope, a plane never
+// shadows itself.
 vec3 movedForShadow(ShadowMapValues map, float w, vec3 positionW, vec3 normalW, vec3 toLightW) {
-  bool directional = map.place.y == 0u;
-  vec2 texel = map.texel.xy * (directional ? vec2(w, w * w) : vec2(w));  // m
+  vec2 texel = texelSize(map, w);
   float corner = length(vec2(texel.x + map.texel.w * texel.y, texel.y));
-  float reach = shadowFilterReach * corner;
   float cosine = dot(normalW, map.axisW.xyz);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
   float rounding = kPositionRounding * distance(positionW, view.eyeW.xyz);
-  float mapRounding = kMapRounding * (length(positionW) + (directional ? map.axisW.w : w));
-  return positionW + normalW * (shadowNormalBias * (reach * sine + rounding)) +
+  float mapRounding = kMapRounding * (length(positionW) + (isDirectional(map) ? map.axisW.w : w));
+  return positionW + normalW * (shadowNormalBias * (shadowReach * corner * sine + rounding)) +
          toLightW * (shadowBias + mapRounding);
 }
 
@@ -77,6 +71,102 @@ int shadowMapOf(uvec4 range, vec3 positionW) {
   return chosen;
 }
 
+vec3 uvDepthOf(ShadowMapValues map, vec3 positionW) {
+  vec4 clip = map.clipFromWorld * vec4(positionW, 1.0);
+  return vec3(0.5 * clip.xy / clip.w + 0.5, depthInMap(map, clip, positionW));
+}
+
+// By how much depth changes along the surface's plane, for each unit of u and v.
+vec2 depthSlope(ShadowMapValues map, vec3 uvDepth, vec3 positionW, vec3 normalW, float step) {
+  vec3 along = normalize(abs(normalW.y) < 0.8 ? vec3(normalW.z, 0.0, -normalW.x) : vec3(0.0, -normalW.z, normalW.y));
+  vec3 first = uvDepthOf(map, positionW + step * along) - uvDepth;
+  vec3 second = uvDepthOf(map, positionW + step * cross(normalW, along)) - uvDepth;
+  float area = first.x * second.y - first.y * second.x;
+  vec2 slope = vec2(first.z * second.y - second.z * first.y, second.z * first.x - first.z * second.x);
+  return area == 0.0 ? vec2(0.0) : slope / area;
+}
+
+float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
+  vec4 at = vec4(uvDepth.xy, float(map.place.x), uvDepth.z);
+  return isDirectional(map) ? texture(directionalShadowMaps, at) : texture(localShadowMaps, at);
+}
+
+// Depth that a point is compared with beside its own place: its own, or that of its plane where that is nearer to the
+// light, so that a plane does not shadow itself; where the plane falls away, another surface that rises there is none
+// of the light's way.
+vec3 besideIt(vec3 uvDepth, vec2 slope, vec2 offset) {
+  return uvDepth + vec3(offset, max(dot(slope, offset), 0.0));
+}
+
+// apart: from one comparison to the next, in u and v.
+float filteredShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apart, int radius) {
+  float sum = 0.0;
+  for (int y = -radius; y <= radius; ++y)
+    for (int x = -radius; x <= radius; ++x)
+      sum += shadowComparison(map, besideIt(uvDepth, slope, vec2(x, y) * apart));
+  float side = 2.0 * float(radius) + 1.0;
+  return sum / (side * side);
+}
+
+// Distance from the light along the map's axis, m; of directional lights from some plane across it.
+float distanceOf(ShadowMapValues map, float depth) {
+  return isDirectional(map) ? (1.0 - depth) * map.axisW.w : map.inner.y / (depth + map.inner.z);
+}
+
+float storedDepth(ShadowMapValues map, vec2 uv) {
+  vec3 at = vec3(uv, float(map.place.x));
+  return isDirectional(map) ? texture(directionalShadowDepths, at).r : texture(localShadowDepths, at).r;
+}
+
+// Of what is nearer to the light around a point.
+struct Blockers {
+  float distance;  // mean of distanceOf()
+  float share;     // of what was searched
+};
+Blockers searchBlockers(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apart) {
+  Blockers found = Blockers(0.0, 0.0);
+  for (int y = -shadowSearchRadius; y <= shadowSearchRadius; ++y)
+    for (int x = -shadowSearchRadius; x <= shadowSearchRadius; ++x) {
+      vec3 beside = besideIt(uvDepth, slope, vec2(x, y) * apart);
+      float stored = storedDepth(map, beside.xy);
+      if (stored <= beside.z) continue;
+      found.distance += distanceOf(map, stored);
+      found.share += 1.0;
+    }
+  float side = 2.0 * float(shadowSearchRadius) + 1.0;
+  found.distance /= max(found.share, 1.0);
+  found.share /= side * side;
+  return found;
+}
+
+// The width of the penumbra on a surface across the light, m. size: the light's diameter in m, of a directional light
+// its full angle's tangent.
+float penumbraWidth(ShadowMapValues map, float size, float receiver, float blocker) {
+  float behind = max(receiver - blocker, 0.0);
+  return isDirectional(map) ? size * behind : size * behind / max(blocker, 1e-4);
+}
+
+float lightSize(LightValues light) {
+  return light.position.w == 0.0 ? 2.0 * tan(0.5 * light.shape.z) : 2.0 * light.shape.y;
+}
+
+// As wide as the penumbra. Blockers half way to the light are searched where the whole light sees them.
+float softShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, float w, float size) {
+  vec2 uvOfMetre = map.texel.z / texelSize(map, w);
+  float receiver = distanceOf(map, uvDepth.z);
+  float searched = isDirectional(map) ? penumbraWidth(map, size, receiver, 0.5 * receiver) : size;
+  vec2 atLeast = vec2(map.texel.z);
+  vec2 apart = max(0.5 * searched * uvOfMetre, atLeast) / max(float(shadowSearchRadius), 1.0);
+  Blockers blockers = searchBlockers(map, uvDepth, slope, apart);
+  float width = penumbraWidth(map, size, receiver, blockers.distance);
+  // Software rasterisers leave loops early, but run both ways of an if.
+  bool partly = blockers.share > 0.0 && blockers.share < 1.0;
+  float visible = filteredShadow(map, uvDepth, slope,
+                                 max(0.5 * width * uvOfMetre, atLeast) / max(float(shadowFilterRadius), 1.0),
+                                 partly ? shadowFilterRadius : -1);
+  return partly ? visible : 1.0 - blockers.share;
+}
+
 // Share of the light (index as in LightBlock) that arrives, 0 to 1. normalW: of the surface's true
 // plane, not of its shading; toLightW: from the point; both unit.
 float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
@@ -86,6 +176,10 @@ float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) 
   ShadowMapValues map = shadowMaps[chosen];
   float w = (map.clipFromWorld * vec4(positionW, 1.0)).w;
   vec3 movedW = movedForShadow(map, w, positionW, normalW, toLightW);
-  vec4 clip = map.clipFromWorld * vec4(movedW, 1.0);
-  return filteredShadow(map, vec3(0.5 * clip.xy / clip.w + 0.5, depthInMap(map, clip, movedW)));
+  vec3 uvDepth = uvDepthOf(map, movedW);
+  if (shadowFilterRadius == 0) return shadowComparison(map, uvDepth);
+  vec2 slope = depthSlope(map, uvDepth, movedW, normalW, texelSize(map, w).x);
+  float size = lightSize(lights[light]);
+  if (shadowSearchRadius >= 0 && size > 0.0) return softShadow(map, uvDepth, slope, w, size);
+  return filteredShadow(map, uvDepth, slope, vec2(map.texel.z), shadowFilterRadius);
 }

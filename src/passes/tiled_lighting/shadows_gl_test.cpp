@@ -32,9 +32,8 @@ std::vector<Case> cases() {
 }
 
 graph::Pipeline shadowRows(const std::string& method = "lispsm",
-                           const std::vector<std::string>& types = {"Cull", "GBuffer",
-                                                                    "CustomShaders", "ShadowMaps",
-                                                                    "TiledLighting"}) {
+                           const std::vector<std::string>& types = {
+                               "Cull", "GBuffer", "CustomShaders", "ShadowMaps", "TiledLighting"}) {
   graph::Pipeline pipeline = testing::rows(types);
   for (graph::PassRow& row : pipeline.passes)
     if (row.type == "ShadowMaps") row.params["method"] = method;
@@ -107,8 +106,8 @@ class Shadows : public ::testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(Of, Shadows, ::testing::ValuesIn(cases()),
                          [](const auto& parameter) { return parameter.param.name; });
 
-// Neither acne nor anything else: a wall that nothing stands before is lit as TiledLighting lights it,
-// at every angle of the light, whatever its normal map says.
+// Neither acne nor anything else: a wall that nothing stands before is lit as TiledLighting lights
+// it, at every angle of the light, whatever its normal map says.
 TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
   for (const bool leaning : {false, true})
     for (const float degrees : {0.f, 0.007f, 20.f, 45.f, 70.f, 85.f, 89.f}) {
@@ -121,8 +120,9 @@ TEST_P(Shadows, AWallByItselfIsLitAsWithoutShadows) {
       const vec3 toLight(0.8f * std::sin(angle), 0.6f * std::sin(angle), std::cos(angle));
       addLamp(scene, GetParam().kind, target + 4.f * toLight, target);
       updateTransforms(scene);
-      const Image plain = testing::asFloatRgb(testing::valueOf(
-          scene, testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize, "TiledLighting.color"));
+      const Image plain = testing::asFloatRgb(
+          testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
+                           "TiledLighting.color"));
       for (const Filter& filter : kFilters) {
         graph::Pipeline pipeline = shadowRows(GetParam().method);
         setFilter(pipeline, filter);

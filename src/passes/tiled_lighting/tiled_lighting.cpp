@@ -11,14 +11,19 @@ namespace {
 void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports>& d) {
   using Params = TiledLighting::Params;
   d.param("shadows", &Params::shadows)
-      .choices({"none", "hard", "pcf"})
+      .choices({"none", "hard", "pcf", "pcss"})
       .rebuilds(graph::Rebuild::Ports)
       .help(
           "hard: one comparison with the shadow map; pcf: percentage-closer filtering, the mean of "
-          "kernel x kernel comparisons a texel apart.");
+          "kernel x kernel comparisons a texel apart; pcss: percentage-closer soft shadows, that "
+          "of "
+          "comparisons all over the penumbra, whose width follows from a search for blockers.");
   d.param("kernel", &Params::kernel)
-      .range(1, 23)
-      .help("pcf: comparisons along each side, odd; an even number is taken as the next.");
+      .range(1, 47)
+      .help("pcf, pcss: comparisons along each side, odd; an even number is taken as the next.");
+  d.param("search", &Params::search)
+      .range(3, 47)
+      .help("pcss: depths along each side that are searched for blockers, odd.");
   d.param("comparison", &Params::comparison)
       .choices({"nearest", "filtered"})
       .help("nearest: with one depth; filtered: the hardware's mean of the four around the point.");
@@ -31,10 +36,6 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
       .help(
           "How far a point is moved off its surface before it is compared, as a factor on what "
           "keeps a plane from shadowing itself: the filter's reach there times the slope.");
-}
-
-int radiusOf(const TiledLighting::Params& params) {
-  return params.shadows == TiledLighting::Shadows::Pcf ? params.kernel / 2 : 0;
 }
 
 }  // namespace
@@ -50,7 +51,10 @@ void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("tileLights", &Ports::tileLights)
       .optional()
       .help("Which lights may reach a pixel; without it each pixel tries them all.");
-  d.read("depth", &Ports::depth).texture(Format::Depth32F).halo(shadows ? 1 : 0).help("Reversed depth.");
+  d.read("depth", &Ports::depth)
+      .texture(Format::Depth32F)
+      .halo(shadows ? 1 : 0)
+      .help("Reversed depth.");
   const auto read = [&](const char* name, graph::In<gpu::Texture> Ports::* member, Format format,
                         const char* help) {
     auto port = d.read(name, member);
@@ -96,8 +100,7 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Ports& po
 }
 
 // Draws onto `color`, made black if it is new, with everything bound that the ports hold.
-gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params,
-                                    const Ports& ports) {
+gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params, const Ports& ports) {
   gpu::Rendering rendering = device.render({
       .colors = {{ports.color.get(), ports.color.isNew() ? gpu::Load::Clear : gpu::Load::Keep,
                   vec4(0.f, 0.f, 0.f, 1.f)}},
@@ -115,8 +118,7 @@ gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params,
   if (ports.ambientVisibility)
     rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
   if (ports.shadowMaps)
-    render::bindShadowMaps(rendering, *ports.shadowMaps,
-                           params.comparison == Comparison::Filtered);
+    render::bindShadowMaps(rendering, *ports.shadowMaps, params.comparison == Comparison::Filtered);
   return rendering;
 }
 
@@ -131,18 +133,16 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
                           .cull = gpu::Cull::None});
   program.set("ambientScale", params.ambient);
   if (ports.shadowMaps) {
-    const int radius = radiusOf(params);
-    program.set("shadowFilterRadius", radius);
-    program.set("shadowFilterReach", static_cast<float>(radius) +
-                                         (params.comparison == Comparison::Filtered ? 1.f : 0.5f));
+    program.set("shadowFilterRadius", params.shadows == Shadows::Hard ? 0 : params.kernel / 2);
+    program.set("shadowSearchRadius", params.shadows == Shadows::Pcss ? params.search / 2 : -1);
+    program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
     program.set("shadowBias", params.bias);
     program.set("shadowNormalBias", params.normalBias);
   }
   rendering.fullscreen();
 }
 
-void TiledLighting::execute(graph::PassContext& context, const Params& params,
-                            const Ports& ports) {
+void TiledLighting::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   gpu::Rendering rendering = begin(context.device, params, ports);
   const auto usesOwnShader = [](const scene::Material& material) { return material.shader.used(); };
   if (ports.shadowMaps && !ports.color.isNew() &&

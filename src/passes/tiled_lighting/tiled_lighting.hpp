@@ -15,12 +15,13 @@ namespace lucerna::passes {
 
 class TiledLighting {
  public:
-  enum class Shadows { None, Hard, Pcf };
+  enum class Shadows { None, Hard, Pcf, Pcss };
   enum class Comparison { Nearest, Filtered };
   struct Params {
     float ambient = 1.f;
     Shadows shadows = Shadows::Pcf;
     int kernel = 3;  // comparisons along each side, odd
+    int search = 5;  // depths along each side, odd
     Comparison comparison = Comparison::Filtered;
     float bias = 0.f;  // m
     float normalBias = 1.f;
