@@ -1,6 +1,7 @@
 #include "render/gpu_scene.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/math/transform.hpp"
@@ -9,6 +10,12 @@
 
 namespace lucerna::render {
 namespace {
+
+// Scenes are loaded one after the other into the same GpuScene, so each counts on from the last.
+std::uint64_t nextRevision() {
+  static std::atomic<std::uint64_t> revision = 0;
+  return ++revision;
+}
 
 bool flipsOrientation(const mat4& worldFromObject) {
   return glm::determinant(mat3(worldFromObject)) < 0.f;
@@ -124,6 +131,7 @@ void buildBvh(GpuScene& gpuScene) {
 void upload(gpu::Device& device, GpuScene& gpuScene, const scene::Scene& scene) {
   gpuScene.scene = &scene;
   gpuScene.changes = {.everything = true, .movedObjects = {}, .lights = true, .materials = true};
+  gpuScene.geometryRevision = nextRevision();
   uploadGeometry(device, gpuScene);
   uploadTextures(device, gpuScene);
   uploadMaterials(device, gpuScene);
@@ -135,6 +143,7 @@ void updateMoved(gpu::Device& device, GpuScene& gpuScene, std::span<const std::u
   if (moved.empty()) return;
   auto& known = gpuScene.changes.movedObjects;
   known.insert(known.end(), moved.begin(), moved.end());
+  gpuScene.geometryRevision = nextRevision();
   uploadBentMeshes(device, gpuScene);
   uploadObjects(device, gpuScene);
   std::vector<Aabb> boxes;

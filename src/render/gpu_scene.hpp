@@ -35,6 +35,9 @@ struct GpuScene {
   static constexpr const char* kPortName = "Scene";
   const scene::Scene* scene = nullptr;
   SceneChanges changes;
+  // Another one whenever objects have got other shapes or places, and in each scene: what was made
+  // from them holds as long as it stays.
+  std::uint64_t geometryRevision = 0;
   scene::Bvh bvh;                 // over the objects' boxes; refitted when objects move
   std::vector<MeshRange> meshes;  // as Scene::meshes
   gpu::Buffer vertices, indices;

@@ -9,8 +9,8 @@ namespace lucerna::render {
 namespace {
 
 // Large enough for the layers that maps name; what is there already stays.
-void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, const ShadowMapSize& size,
-         gpu::Texture& texture) {
+void fit(gpu::Device& device, ShadowMaps& shadowMaps, bool local, const ShadowMapSize& size) {
+  gpu::Texture& texture = local ? shadowMaps.local : shadowMaps.directional;
   int side = size.side, layers = 0;
   for (const ShadowMaps::Map& map : shadowMaps.maps)
     if (map.local == local) layers = std::max(layers, map.layer + 1);
@@ -18,6 +18,8 @@ void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, const Sh
   if (layers == 0) side = layers = 1;
   if (texture && texture.width() == side && texture.desc().layers >= layers) return;
   texture = {};  // before the new one is made
+  (local ? shadowMaps.drawnLocal : shadowMaps.drawnDirectional)
+      .assign(static_cast<std::size_t>(layers), {});
   texture =
       device.createTexture({.kind = gpu::TextureKind::Array2D,
                             .format = gpu::Format::Depth32F,
@@ -31,8 +33,8 @@ void fit(gpu::Device& device, const ShadowMaps& shadowMaps, bool local, const Sh
 
 void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
                        const ShadowMapSize& directional, const ShadowMapSize& local) {
-  fit(device, shadowMaps, false, directional, shadowMaps.directional);
-  fit(device, shadowMaps, true, local, shadowMaps.local);
+  fit(device, shadowMaps, false, directional);
+  fit(device, shadowMaps, true, local);
   std::vector<blocks::ShadowMapValues> maps;
   for (const ShadowMaps::Map& map : shadowMaps.maps) {
     const gpu::Texture& texture = map.local ? shadowMaps.local : shadowMaps.directional;

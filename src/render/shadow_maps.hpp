@@ -24,7 +24,15 @@ struct ShadowMaps {
   std::vector<Map> maps;
   // Of each light of the LightList. Where several maps show a point the first of them counts.
   std::vector<Range> ofLight;
-  gpu::Texture directional, local;  // Depth32F arrays; of one texel where there is no map
+  // Depth32F arrays; of one texel where there is no map
+  gpu::Texture directional, local;
+  // What a layer shows: what it was drawn from last, or nothing yet.
+  struct Drawn {
+    ShadowProjection projection;
+    std::uint64_t geometryRevision = 0;  // of GpuScene; 0: nothing
+    bool operator==(const Drawn&) const = default;
+  };
+  std::vector<Drawn> drawnDirectional, drawnLocal;  // of each layer
   gpu::Buffer mapBlock, lightBlock;
 };
 

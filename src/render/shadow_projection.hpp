@@ -29,6 +29,7 @@ struct ShadowProjection {
   vec4 depthPlaneW{0.f};
 
   mat4 clipFromWorld() const { return clipFromView * viewFromWorld; }
+  bool operator==(const ShadowProjection&) const = default;
 };
 
 // Several views that share maps, as one viewer: the mean of what they are.

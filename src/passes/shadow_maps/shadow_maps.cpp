@@ -36,6 +36,11 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("localLights", &Params::localLights)
       .range(0, 256)
       .help("Most spot and point lights that throw shadows: those that light the view most.");
+  d.param("redraw", &Params::redraw)
+      .choices({"changed", "always"})
+      .help(
+          "changed: a map is drawn where its light, the views or any object have changed since; "
+          "always: in every frame.");
   d.read("scene", &Ports::scene).help("What throws shadows: all but translucent surfaces.");
   d.read("lights", &Ports::lights).help("Lights that are on.");
   d.read("views", &Ports::views).help("All that they see is in the maps.");
@@ -101,8 +106,15 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
                                                       : "set size of ShadowMaps lower"},
       {params.localSize, "set localSize or localLights of ShadowMaps lower"});
   drawings_.resize(std::max(drawings_.size(), out.maps.size()));
-  for (std::size_t i = 0; i < out.maps.size(); ++i)
-    draw(context.device, ports, out.maps[i], drawings_[i]);
+  for (std::size_t i = 0; i < out.maps.size(); ++i) {
+    const render::ShadowMaps::Map& map = out.maps[i];
+    render::ShadowMaps::Drawn& drawn =
+        (map.local ? out.drawnLocal : out.drawnDirectional)[static_cast<std::size_t>(map.layer)];
+    const render::ShadowMaps::Drawn wanted{map.projection, ports.scene->geometryRevision};
+    if (params.redraw == Redraw::Changed && drawn == wanted) continue;
+    draw(context.device, ports, map, drawings_[i]);
+    drawn = wanted;
+  }
 }
 
 }  // namespace lucerna::passes

@@ -17,6 +17,7 @@ class ShadowMaps {
  public:
   enum class Method { Lispsm, Uniform, Cascades };
   enum class Warp { Automatic, Set };
+  enum class Redraw { Changed, Always };
   struct Params {
     Method method = Method::Lispsm;
     int size = 2048;  // texels
@@ -25,6 +26,7 @@ class ShadowMaps {
     int cascades = 4;
     int localSize = 512;  // texels
     int localLights = 64;
+    Redraw redraw = Redraw::Changed;
   };
   struct Ports {
     graph::In<render::GpuScene> scene;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "support/testing.hpp"
 
@@ -32,15 +33,21 @@ void addLamp(scene::Scene& scene, scene::LightKind kind, vec3 eye, vec3 target) 
   updateTransforms(scene);
 }
 
-graph::StepProfile profileOf(const scene::Scene& scene, const graph::Pipeline& pipeline) {
-  testing::SceneRenderer renderer(scene);
+// One more frame. picture: TiledLighting's, if it is wanted.
+graph::StepProfile profileOf(testing::SceneRenderer& renderer, const graph::Pipeline& pipeline,
+                             Image* picture = nullptr) {
   renderer.profiling = true;
-  const auto output = renderer.render(pipeline, kSize);
-  EXPECT_TRUE(output) << output.error().message;
+  auto output = renderer.render(pipeline, kSize, {"TiledLighting.color"});
+  CHECK(static_cast<bool>(output), "{}", output.error().message);
+  if (picture) *picture = std::move(output->kept.at("TiledLighting.color"));
   for (const graph::StepProfile& step : output->profile.steps)
     if (step.row == "ShadowMaps") return step;
   ADD_FAILURE() << "ShadowMaps did not run";
   return {};
+}
+graph::StepProfile profileOf(const scene::Scene& scene, const graph::Pipeline& pipeline) {
+  testing::SceneRenderer renderer(scene);
+  return profileOf(renderer, pipeline);
 }
 
 // Only what lies between the lights and what is seen is drawn.
@@ -90,6 +97,34 @@ TEST(ShadowMaps, WhatIsInsideALampThrowsNoShadow) {
   EXPECT_EQ(center(), vec3(0.f));
   scene.lights.back().radius = 0.25f;  // the cube touches its surface
   EXPECT_GT(center().y, 0.01f);
+}
+
+TEST(ShadowMaps, AreDrawnAnewWhereSomethingHasChanged) {
+  for (const scene::LightKind kind : {scene::LightKind::Directional, scene::LightKind::Spot}) {
+    scene::Scene scene = wallScene();
+    addCube(scene, {0, 0, 2});
+    addLamp(scene, kind, {0.5f, 1, 4}, {0, 0, -4});
+    testing::SceneRenderer renderer(scene);
+    graph::Pipeline pipeline = testing::rows(kRows);
+    Image first, again, moved, fresh;
+    EXPECT_GT(profileOf(renderer, pipeline, &first).counters.draws, 0u);
+    EXPECT_EQ(profileOf(renderer, pipeline, &again).counters.draws, 0u);
+    EXPECT_TRUE(std::ranges::equal(first.bytes(), again.bytes()));
+
+    const auto cube = static_cast<std::uint32_t>(scene.objects.size() - 1);
+    scene.nodes[scene.objects[cube].node].translation.x += 0.4f;
+    updateTransforms(scene);
+    updateMoved(testing::device(), renderer.gpuScene, std::array{cube});
+    EXPECT_GT(profileOf(renderer, pipeline, &moved).counters.draws, 0u);
+    EXPECT_FALSE(std::ranges::equal(first.bytes(), moved.bytes()));
+    testing::SceneRenderer anew(scene);
+    profileOf(anew, pipeline, &fresh);
+    EXPECT_TRUE(std::ranges::equal(fresh.bytes(), moved.bytes()));
+
+    pipeline.passes[2].params["redraw"] = std::string("always");
+    EXPECT_GT(profileOf(renderer, pipeline, &again).counters.draws, 0u);
+    EXPECT_GT(profileOf(renderer, pipeline, &again).counters.draws, 0u);
+  }
 }
 
 TEST(ShadowMaps, SizesAreThoseAskedFor) {
