@@ -236,7 +236,7 @@ TEST_F(TilesTest, SceneryJoinsButForRounding) {
                                               {"builtin:atrium?glass=1", "forward", 112},
                                               {"builtin:atrium", "bvh", 112},
                                               {"builtin:atrium?lights=2", "sraa", 64},
-                                              {"builtin:atrium", "shadows", 112},
+                                              {"builtin:atrium", "pcf", 112},
                                               {"builtin:materials", "deferred", 64},
                                               {"builtin:materials", "forward", 112},
                                               {"builtin:mirrors", "deferred", 64},
@@ -304,7 +304,7 @@ class StereoTest : public ViewsTest {
 TEST_F(StereoTest, WithoutSeparationEachHalfIsTheMonoPicture) {
   for (const auto& [scene, pipeline] : {std::pair{"builtin:atrium?lights=2", "deferred"},
                                         {"builtin:atrium?lights=2", "forward"},
-                                        {"builtin:atrium?lights=2", "shadows"},
+                                        {"builtin:atrium?lights=2", "pcf"},
                                         {"builtin:mirrors", "deferred"}}) {
     SCOPED_TRACE(fmt::format("{}, {}", scene, pipeline));
     settings_.scene = scene;

@@ -70,7 +70,7 @@ class TruthTest(unittest.TestCase):
 
             def psnr(*sets):
                 arguments = [word for value in sets for word in ("--set", value)]
-                self.run_command("render", scene, "--size", "320x180", "--pipeline", "shadows", *arguments, "-o", test)
+                self.run_command("render", scene, "--size", "320x180", "--pipeline", "pcf", *arguments, "-o", test)
                 return self.compare(truth, test)["psnr"]
 
             without = psnr("ShadowMaps.enabled=false")

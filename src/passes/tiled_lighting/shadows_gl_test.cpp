@@ -252,5 +252,55 @@ TEST_P(Shadows, PixelsOfCustomShadersDarkenByTheDiffuseShare) {
   }
 }
 
+// A spot lamp, a disc, beside the camera throws the shadow of a half-plane onto a wall. Of how much
+// of the disc one sees where is known; t: place in the penumbra, -1 to 1.
+double visibleShareOfDisc(double t) {
+  t = std::clamp(t, -1., 1.);
+  return 0.5 + (t * std::sqrt(1. - t * t) + std::asin(t)) / static_cast<double>(kPi);
+}
+
+TEST(SoftShadows, ArePenumbraeOfTheRightWidth) {
+  constexpr uvec2 kPicture{257, 65};
+  constexpr float kLampX = -1.f, kEdgeX = 0.f, kHalfWay = 0.5f * kWall;
+  for (const float radius : {0.2f, 0.4f, 0.8f}) {
+    SCOPED_TRACE(radius);
+    scene::Scene scene = testing::emptyScene();
+    testing::addWall(scene, kWall);
+    scene.meshes.push_back(testing::cubeMesh());
+    const mat4 place = glm::translate(mat4(1.f), vec3(kEdgeX - 20.f, 0, -kHalfWay));
+    testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
+                       glm::scale(place, vec3(40, 40, 1e-3f)));
+    addLamp(scene, scene::LightKind::Spot, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
+    scene.lights.back().radius = radius;
+    updateTransforms(scene);
+    const auto rowOf = [&](const char* shadows) {
+      graph::Pipeline pipeline = shadowRows();
+      for (graph::PassRow& row : pipeline.passes) {
+        if (row.type == "ShadowMaps") row.params["localSize"] = 2048;
+        if (row.type == "TiledLighting")
+          row.params = {{"shadows", std::string(shadows)}, {"kernel", 23}, {"search", 11}};
+      }
+      return testing::asFloatRgb(
+          testing::valueOf(scene, pipeline, kPicture, "TiledLighting.color"));
+    };
+    const Image lit = rowOf("none"), soft = rowOf("pcss");
+    const float aspect = static_cast<float>(kPicture.x) / static_cast<float>(kPicture.y);
+    const float width = 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY) * aspect;  // m
+    const float middle = kEdgeX + (kEdgeX - kLampX);  // as far behind the edge as before it
+    double worst = 0;
+    int within = 0;
+    for (int x = kPicture.x / 2 + 2; x < static_cast<int>(kPicture.x); ++x) {
+      const float at = width * ((static_cast<float>(x) + 0.5f) / kPicture.x - 0.5f);
+      const double share = visibleShareOfDisc((at - middle) / radius);
+      const int y = kPicture.y / 2;
+      const double found = soft.pixel<float>(x, y)[1] / lit.pixel<float>(x, y)[1];
+      worst = std::max(worst, std::abs(found - share));
+      within += std::abs(at - middle) < radius;
+    }
+    EXPECT_GT(within, 3);
+    EXPECT_LT(worst, 0.12);
+  }
+}
+
 }  // namespace
 }  // namespace lucerna

@@ -1,13 +1,13 @@
-// Deferred shading in which all lights throw shadows, by shadow maps.
+// Deferred shading in which all lights throw shadows: one comparison with its maps for each.
 // Objects with shaders of their own are drawn first, so that shadows darken them, too.
-pipeline({name: "shadows", output: "ToneMap.color"});
+pipeline({name: "hard", output: "ToneMap.color"});
 
 pass("Cull");
 pass("GBuffer");
 pass("CustomShaders");
 pass("ShadowMaps");
 pass("TileLights");
-pass("TiledLighting");
+pass("TiledLighting", {shadows: "hard"});
 pass("Background");
 pass("Mirrors");
 pass("Transparency");
