@@ -12,6 +12,7 @@
 #include "passes/mirrors/mirrors.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
+#include "passes/shadow_layers/shadow_layers.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
@@ -43,6 +44,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<GBuffer>();
   registry.add<ScreenSpaceAo>();
   registry.add<ShadowMaps>();
+  registry.add<ShadowLayers>();
   registry.add<TileLights>();
   registry.add<TiledLighting>();
   registry.add<CustomShaders>();

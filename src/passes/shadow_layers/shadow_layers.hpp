@@ -1,0 +1,40 @@
+// ShadowLayers: which lights may share a layer of screen-space shadows.
+#pragma once
+
+#include <set>
+#include <string>
+
+#include "graph/pass_info.hpp"
+#include "passes/shadow_layers/colour_lights.hpp"
+#include "render/gpu_scene.hpp"
+#include "render/light_list.hpp"
+#include "render/shadow_layers.hpp"
+#include "render/shadow_maps.hpp"
+
+namespace lucerna::passes {
+
+class ShadowLayers {
+ public:
+  struct Params {
+    int layers = 8;
+    ColourOrder order = ColourOrder::Saturation;
+    bool sunAlone = true;
+  };
+  struct Ports {
+    graph::In<render::GpuScene> scene;
+    graph::In<render::LightList> lights;
+    graph::In<render::ShadowMaps> shadowMaps;
+    graph::Out<render::ShadowLayers> shadowLayers;
+  };
+
+  static void describe(graph::PassInfo<Params, Ports>& d);
+  explicit ShadowLayers(gpu::Device&) {}
+  void execute(graph::PassContext& context, const Params& params, const Ports& ports);
+
+ private:
+  void warnOf(const std::vector<std::string>& beyond, int layers);
+
+  std::set<std::string> warned_;
+};
+
+}  // namespace lucerna::passes
