@@ -26,16 +26,22 @@ Stage stageOf(const std::string& type) {
   if (type == "Fullscreen")  // of any format, so nobody reads it
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "Fullscreen"}, "Fullscreen.color"};
   if (type == "ScreenSpaceAo")
-    return {{"Cull", "GBuffer", "CustomShaders", type, "TiledLighting", "ToneMap"}, "ToneMap.color"};
+    return {{"Cull", "GBuffer", "CustomShaders", type, "TiledLighting", "ToneMap"},
+            "ToneMap.color"};
   if (type == "ShadowMaps" || type == "TiledLighting")
     return {{"Cull", "GBuffer", "ShadowMaps", "TiledLighting", "ToneMap"}, "ToneMap.color"};
+  if (type == "ShadowLayers" || type == "ShadowMask")
+    return {{"Cull", "GBuffer", "ShadowMaps", "ShadowLayers", "TileLights", "ShadowMask",
+             "TiledLighting", "ToneMap"},
+            "ShadowMask.shadowMask"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
             {{"file", ::testing::TempDir() + "lucerna-each-pass.png"}}};
   if (type == "Fxaa") return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", type}, "Fxaa.color"};
   if (type == "GeometrySamples" || type == "Sraa")
-    return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "GeometrySamples", "Sraa"}, "Sraa.color"};
+    return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "GeometrySamples", "Sraa"},
+            "Sraa.color"};
   if (type == "ShowGBuffer")
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "ShowGBuffer"}, "ShowGBuffer.color"};
   if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())

@@ -14,6 +14,7 @@
 #include "passes/screen_space_ao/screen_space_ao.hpp"
 #include "passes/shadow_layers/shadow_layers.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
+#include "passes/shadow_mask/shadow_mask.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
 #include "passes/sraa/sraa.hpp"
@@ -46,6 +47,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ShadowMaps>();
   registry.add<ShadowLayers>();
   registry.add<TileLights>();
+  registry.add<ShadowMask>();
   registry.add<TiledLighting>();
   registry.add<CustomShaders>();
   registry.add<Forward>();

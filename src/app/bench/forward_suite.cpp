@@ -13,7 +13,8 @@ Chain chainOf(const std::string& name) {
   if (name == kForward)
     chain.rows.push_back({"Forward"});
   else
-    chain.rows.insert(chain.rows.end(), {{"GBuffer"}, {"TileLights"}, {"TiledLighting"}, {"CustomShaders"}});
+    chain.rows.insert(chain.rows.end(),
+                      {{"GBuffer"}, {"TileLights"}, {"TiledLighting"}, {"CustomShaders"}});
   chain.rows.insert(chain.rows.end(), {{"Background"}, {"Transparency"}, {"ToneMap"}});
   return chain;
 }

@@ -17,7 +17,7 @@ std::vector<std::string> mapSizes(const Results& results) {
 Chain chainOf(const std::string& method, const std::string& size) {
   return {{{"Cull"},
            {"GBuffer"},
-           {"ShadowMaps", {"method=" + method, "size=" + size}},
+           {"ShadowMaps", {"method=" + method, "size=" + size, "redraw=always"}},
            {"TiledLighting"},
            {"Background"},
            {"ToneMap", {"operator=linear"}}}};
