@@ -31,7 +31,7 @@ Stage stageOf(const std::string& type) {
   if (type == "ShadowMaps" || type == "TiledLighting")
     return {{"Cull", "GBuffer", "ShadowMaps", "TiledLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "ShadowLayers" || type == "ShadowMask")
-    return {{"Cull", "GBuffer", "ShadowMaps", "ShadowLayers", "TileLights", "ShadowMask",
+    return {{"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask",
              "TiledLighting", "ToneMap"},
             "ShadowMask.shadowMask"};
   if (type == "SaveImage")

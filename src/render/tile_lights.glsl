@@ -2,9 +2,10 @@
 //   for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i))
 //   TILE_LIGHTS        those of the pixel's tile; without, all lights
 //   WRITE_TILE_LIGHTS  for the pass that finds them
+//   READ_TILE_LIGHTS   for other uses of the tiles' bits
 const uint kLightTile = 16u;  // px, side of a tile, as in render/tile_lights.hpp
 
-#if defined(WRITE_TILE_LIGHTS) || defined(TILE_LIGHTS)
+#if defined(WRITE_TILE_LIGHTS) || defined(READ_TILE_LIGHTS) || defined(TILE_LIGHTS)
 #ifdef WRITE_TILE_LIGHTS
 layout(std430) writeonly buffer TileLightBlock {
 #else

@@ -2,13 +2,16 @@
 // render/tile_lights.glsl reads them.
 #pragma once
 
+#include <cstdint>
+
 #include "gpu/device.hpp"
 
 namespace lucerna::render {
 
 struct TileLights {
   static constexpr const char* kPortName = "TileLights";
-  gpu::Buffer block;  // TileLightBlock
+  std::uint32_t tiles = 0;  // in all
+  gpu::Buffer block;        // TileLightBlock
 };
 
 inline constexpr int kLightTile = 16;  // px, side of a tile; as in render/tile_lights.glsl

@@ -82,6 +82,16 @@ OverlapGraph overlapsOf(std::span<const scene::PlacedLight> lights,
   return graph;
 }
 
+OverlapGraph overlapsOf(std::span<const std::uint32_t> bits, const std::vector<bool>& shadowed) {
+  const std::size_t words = (shadowed.size() + 31) / 32;
+  OverlapGraph graph(shadowed.size());
+  for (std::uint32_t a = 0; a < shadowed.size(); ++a)
+    for (std::uint32_t b = 0; b < shadowed.size(); ++b)
+      if (a != b && shadowed[a] && shadowed[b] && (bits[a * words + b / 32] >> (b % 32) & 1u))
+        graph[a].push_back(b);
+  return graph;
+}
+
 std::vector<int> colourLights(const OverlapGraph& graph, const std::vector<bool>& coloured,
                               std::span<const std::uint32_t> first, ColourOrder order, int layers) {
   Colouring colouring(graph, layers);

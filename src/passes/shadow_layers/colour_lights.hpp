@@ -20,9 +20,11 @@ struct LitSphere {
 };
 LitSphere litSphere(const scene::PlacedLight& light);
 
-// shadowed: whether a light throws shadows; those that do not overlap nothing.
+// By their spheres. shadowed: whether a light throws shadows; those that do not overlap nothing.
 OverlapGraph overlapsOf(std::span<const scene::PlacedLight> lights,
                         const std::vector<bool>& shadowed);
+// By bits: of each light, in as many words as hold a bit for each light, those that it overlaps.
+OverlapGraph overlapsOf(std::span<const std::uint32_t> bits, const std::vector<bool>& shadowed);
 
 enum class ColourOrder {
   Degree,      // system C's: first-fit in ascending order of degree

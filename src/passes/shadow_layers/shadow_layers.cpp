@@ -1,6 +1,7 @@
 #include "passes/shadow_layers/shadow_layers.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "core/log.hpp"
 
@@ -9,10 +10,17 @@ namespace lucerna::passes {
 void ShadowLayers::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("ShadowLayers",
          "Puts lights whose lit volumes do not meet into one layer of screen-space shadows.");
-  d.runs(graph::Frequency::PerViewGroup);
   d.param("layers", &Params::layers)
       .range(1, 32)
-      .help("Most layers. Lights that none is left for get hard shadows, and a warning names them.");
+      .help(
+          "Most layers. Lights that none is left for get hard shadows, and a warning names them.");
+  d.param("conflicts", &Params::conflicts)
+      .choices({"spheres", "tiles"})
+      .rebuilds(graph::Rebuild::Ports)
+      .help(
+          "Which lights may not share a layer. spheres: those whose lit volumes may meet, by "
+          "spheres "
+          "around them (system C); tiles: those that both reach what is seen in some tile.");
   d.param("order", &Params::order)
       .choices({"degree", "saturation"})
       .help(
@@ -23,6 +31,10 @@ void ShadowLayers::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("scene", &Ports::scene).help("For the lights' names.");
   d.read("lights", &Ports::lights).help("Lights that are on.");
   d.read("shadowMaps", &Ports::shadowMaps).help("Which of them throw shadows.");
+  if (d.values().conflicts == Conflicts::Tiles)
+    d.read("tileLights", &Ports::tileLights)
+        .optional()
+        .help("Which lights reach a tile; without it spheres decide.");
   d.write("shadowLayers", &Ports::shadowLayers).help("The layer of each light.");
 }
 
@@ -35,8 +47,29 @@ void ShadowLayers::warnOf(const std::vector<std::string>& beyond, int layers) {
                  names);
 }
 
-void ShadowLayers::execute(graph::PassContext& context, const Params& params,
-                           const Ports& ports) {
+OverlapGraph ShadowLayers::overlaps(gpu::Device& device, const Params& params, const Ports& ports,
+                                    const std::vector<bool>& shadowed) {
+  if (params.conflicts == Conflicts::Spheres || !ports.tileLights)
+    return overlapsOf(ports.lights->lights, shadowed);
+  const std::size_t words = (shadowed.size() + 31) / 32;
+  std::vector<std::uint32_t> bits(std::max<std::size_t>(shadowed.size() * words, 1));
+  device.write(conflicts_, std::as_bytes(std::span(bits)), "ConflictBlock");
+  {
+    gpu::Computing computing = device.compute();
+    computing.use(*conflictsProgram_);
+    computing.buffer("LightBlock", ports.lights->block);
+    computing.buffer("TileLightBlock", ports.tileLights->block);
+    computing.buffer("ConflictBlock", conflicts_);
+    conflictsProgram_->set("tiles", static_cast<int>(ports.tileLights->tiles));
+    computing.dispatch((ports.tileLights->tiles + 63) / 64);
+  }
+  device.barrier();
+  const std::vector<std::byte> found = device.download(conflicts_);
+  std::memcpy(bits.data(), found.data(), bits.size() * sizeof(bits[0]));
+  return overlapsOf(bits, shadowed);
+}
+
+void ShadowLayers::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   const std::vector<scene::PlacedLight>& lights = ports.lights->lights;
   std::vector<bool> shadowed;
   std::vector<std::uint32_t> suns;
@@ -46,8 +79,8 @@ void ShadowLayers::execute(graph::PassContext& context, const Params& params,
       suns.push_back(i);
   }
   render::ShadowLayers& out = *ports.shadowLayers;
-  out.ofLight = colourLights(overlapsOf(lights, shadowed), shadowed, suns, params.order,
-                             params.layers);
+  out.ofLight = colourLights(overlaps(context.device, params, ports, shadowed), shadowed, suns,
+                             params.order, params.layers);
   out.count = 0;
   std::vector<std::string> beyond;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {

@@ -10,13 +10,16 @@
 #include "render/light_list.hpp"
 #include "render/shadow_layers.hpp"
 #include "render/shadow_maps.hpp"
+#include "render/tile_lights.hpp"
 
 namespace lucerna::passes {
 
 class ShadowLayers {
  public:
+  enum class Conflicts { Spheres, Tiles };
   struct Params {
     int layers = 8;
+    Conflicts conflicts = Conflicts::Tiles;
     ColourOrder order = ColourOrder::Saturation;
     bool sunAlone = true;
   };
@@ -24,16 +27,22 @@ class ShadowLayers {
     graph::In<render::GpuScene> scene;
     graph::In<render::LightList> lights;
     graph::In<render::ShadowMaps> shadowMaps;
+    graph::In<render::TileLights> tileLights;
     graph::Out<render::ShadowLayers> shadowLayers;
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit ShadowLayers(gpu::Device&) {}
+  explicit ShadowLayers(gpu::Device& device)
+      : conflictsProgram_(device.program({.compute = "passes/shadow_layers/conflicts.comp"})) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
+  OverlapGraph overlaps(gpu::Device& device, const Params& params, const Ports& ports,
+                        const std::vector<bool>& shadowed);
   void warnOf(const std::vector<std::string>& beyond, int layers);
 
+  gpu::ProgramPtr conflictsProgram_;
+  gpu::Buffer conflicts_;
   std::set<std::string> warned_;
 };
 

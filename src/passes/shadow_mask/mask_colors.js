@@ -5,7 +5,7 @@ pipeline({name: "mask_colors", output: "Shown.color"});
 pass("Cull");
 pass("GBuffer");
 pass("ShadowMaps");
-pass("ShadowLayers");
 pass("TileLights");
+pass("ShadowLayers");
 pass("ShadowMask");
 pass("Fullscreen", {name: "Shown", shader: "mask_colors.frag", format: "Rgba8Unorm"});

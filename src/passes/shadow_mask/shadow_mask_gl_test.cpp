@@ -35,7 +35,7 @@ Image valueOf(const scene::Scene& scene, const graph::Pipeline& pipeline,
 }
 
 graph::Pipeline maskRows() {
-  return testing::rows({"Cull", "GBuffer", "ShadowMaps", "ShadowLayers", "TileLights", "ShadowMask",
+  return testing::rows({"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask",
                         "TiledLighting"});
 }
 
@@ -44,7 +44,7 @@ TEST(ShadowMask, HasEachLightsShadowInItsLayer) {
     SCOPED_TRACE(lamps);
     scene::Scene scene = lampScene(lamps);
     graph::Pipeline pipeline = maskRows();
-    pipeline.passes[3].params["layers"] = std::int64_t{32};
+    pipeline.passes[4].params["layers"] = std::int64_t{32};
     const Image mask = valueOf(scene, pipeline, "ShadowMask.shadowMask");
     std::uint32_t together = 0;
     for (int i = 0; i < lamps; i += 5) {

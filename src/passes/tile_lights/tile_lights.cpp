@@ -30,9 +30,9 @@ void TileLights::execute(graph::PassContext& context, const Params&, const Ports
   gpu::Device& device = context.device;
   const std::uint32_t across = tilesAcross(ports.depth->width()),
                       up = tilesAcross(ports.depth->height());
+  ports.tileLights->tiles = across * up;
   gpu::Buffer& block = ports.tileLights->block;
-  const std::size_t bytes =
-      bytesFor(std::size_t(across) * up, ports.lights->lights.size());
+  const std::size_t bytes = bytesFor(std::size_t(across) * up, ports.lights->lights.size());
   if (!block || block.bytes() < bytes) block = device.createBuffer(bytes, "TileLightBlock");
   {
     gpu::Computing computing = device.compute();

@@ -48,8 +48,7 @@ class TileLights : public ::testing::Test {
 void expectSamePicture(const scene::Scene& scene, const scene::View& view) {
   testing::SceneRenderer renderer(scene);
   const auto picture = [&](bool tiled) {
-    auto output =
-        renderer.render(testing::rows(rows(tiled)), view, kSize, {"TiledLighting.color"});
+    auto output = renderer.render(testing::rows(rows(tiled)), view, kSize, {"TiledLighting.color"});
     CHECK(static_cast<bool>(output), "{}", output.error().message);
     return output->kept.at("TiledLighting.color");
   };
