@@ -150,15 +150,22 @@ float lightSize(LightValues light) {
   return light.position.w == 0.0 ? 2.0 * tan(0.5 * light.shape.z) : 2.0 * light.shape.y;
 }
 
-// As wide as the penumbra. Blockers half way to the light are searched where the whole light sees them.
-float softShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, float w, float size) {
+// Blockers half way to the light are searched where the whole light sees them. width: of the penumbra, m.
+Blockers blockersOf(ShadowMapValues map, vec3 uvDepth, vec2 slope, float w, float size, out float width) {
   vec2 uvOfMetre = map.texel.z / texelSize(map, w);
   float receiver = distanceOf(map, uvDepth.z);
   float searched = isDirectional(map) ? penumbraWidth(map, size, receiver, 0.5 * receiver) : size;
-  vec2 atLeast = vec2(map.texel.z);
-  vec2 apart = max(0.5 * searched * uvOfMetre, atLeast) / max(float(shadowSearchRadius), 1.0);
+  vec2 apart = max(0.5 * searched * uvOfMetre, vec2(map.texel.z)) / max(float(shadowSearchRadius), 1.0);
   Blockers blockers = searchBlockers(map, uvDepth, slope, apart);
-  float width = penumbraWidth(map, size, receiver, blockers.distance);
+  width = blockers.share > 0.0 ? penumbraWidth(map, size, receiver, blockers.distance) : 0.0;
+  return blockers;
+}
+
+// Comparisons all over the penumbra.
+float softShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, float w, float size) {
+  float width;
+  Blockers blockers = blockersOf(map, uvDepth, slope, w, size, width);
+  vec2 uvOfMetre = map.texel.z / texelSize(map, w), atLeast = vec2(map.texel.z);
   // Software rasterisers leave loops early, but run both ways of an if.
   bool partly = blockers.share > 0.0 && blockers.share < 1.0;
   float visible = filteredShadow(map, uvDepth, slope,
@@ -167,19 +174,46 @@ float softShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, float w, float s
   return partly ? visible : 1.0 - blockers.share;
 }
 
+// Where a light's maps show a point that is moved off its surface.
+struct ShadowLookup {
+  ShadowMapValues map;
+  bool found;
+  vec3 positionW;
+  vec3 uvDepth;
+  float w;  // of clip space
+};
+ShadowLookup lookUpShadow(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
+  ShadowLookup at;
+  at.found = false;
+  if (light >= uint(lightShadows.length())) return at;  // where nobody made maps
+  int chosen = shadowMapOf(lightShadows[light], positionW);
+  if (chosen < 0) return at;
+  at.found = true;
+  at.map = shadowMaps[chosen];
+  at.w = (at.map.clipFromWorld * vec4(positionW, 1.0)).w;
+  at.positionW = movedForShadow(at.map, at.w, positionW, normalW, toLightW);
+  at.uvDepth = uvDepthOf(at.map, at.positionW);
+  return at;
+}
+
 // Share of the light (index as in LightBlock) that arrives, 0 to 1. normalW: of the surface's true
 // plane, not of its shading; toLightW: from the point; both unit.
 float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
-  if (light >= uint(lightShadows.length())) return 1.0;  // where nobody made maps
-  int chosen = shadowMapOf(lightShadows[light], positionW);
-  if (chosen < 0) return 1.0;
-  ShadowMapValues map = shadowMaps[chosen];
-  float w = (map.clipFromWorld * vec4(positionW, 1.0)).w;
-  vec3 movedW = movedForShadow(map, w, positionW, normalW, toLightW);
-  vec3 uvDepth = uvDepthOf(map, movedW);
-  if (shadowFilterRadius == 0) return shadowComparison(map, uvDepth);
-  vec2 slope = depthSlope(map, uvDepth, movedW, normalW, texelSize(map, w).x);
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
+  if (!at.found) return 1.0;
+  if (shadowFilterRadius == 0) return shadowComparison(at.map, at.uvDepth);
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
   float size = lightSize(lights[light]);
-  if (shadowSearchRadius >= 0 && size > 0.0) return softShadow(map, uvDepth, slope, w, size);
-  return filteredShadow(map, uvDepth, slope, vec2(map.texel.z), shadowFilterRadius);
+  if (shadowSearchRadius >= 0 && size > 0.0) return softShadow(at.map, at.uvDepth, slope, at.w, size);
+  return filteredShadow(at.map, at.uvDepth, slope, vec2(at.map.texel.z), shadowFilterRadius);
+}
+
+// The width of the penumbra of what blocks the light, or part of it, m; 0: nothing does.
+float penumbraOf(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
+  if (!at.found) return 0.0;
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
+  float width;
+  blockersOf(at.map, at.uvDepth, slope, at.w, lightSize(lights[light]), width);
+  return width;
 }
