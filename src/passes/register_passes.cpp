@@ -10,8 +10,10 @@
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/geometry_samples/geometry_samples.hpp"
 #include "passes/mirrors/mirrors.hpp"
+#include "passes/penumbra/penumbra.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
+#include "passes/shadow_blur/shadow_blur.hpp"
 #include "passes/shadow_layers/shadow_layers.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
 #include "passes/shadow_mask/shadow_mask.hpp"
@@ -48,6 +50,8 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ShadowLayers>();
   registry.add<TileLights>();
   registry.add<ShadowMask>();
+  registry.add<Penumbra>();
+  registry.add<ShadowBlur>();
   registry.add<TiledLighting>();
   registry.add<CustomShaders>();
   registry.add<Forward>();

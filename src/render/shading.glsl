@@ -80,9 +80,10 @@ vec3 arrivingLight(Surface s, uint light) {
 vec3 shade(Surface s) {
   if (s.type == kTypeUnlit) return s.albedo;
   vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * ambientReflectance(s) * s.occlusion;
+  uvec2 pixel = uvec2(gl_FragCoord.xy);
   // One plain loop: where pixels leave an inner loop at different lights, llvmpipe (Mesa 22.3) takes
   // the index for equal in all of them and reads the wrong light.
-  for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i))
+  for (uint i = firstLightAt(pixel); i < lightCount.x; i = lightAfterAt(pixel, i))
     if (mayLight(lights[i], s.positionW, s.normalW)) radiance += arrivingLight(s, i);
   return radiance;
 }

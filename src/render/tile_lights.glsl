@@ -1,5 +1,5 @@
 // The lights that may reach a pixel, in the order of LightBlock:
-//   for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i))
+//   for (uint i = firstLightAt(pixel); i < lightCount.x; i = lightAfterAt(pixel, i))
 //   TILE_LIGHTS        those of the pixel's tile; without, all lights
 //   WRITE_TILE_LIGHTS  for the pass that finds them
 //   READ_TILE_LIGHTS   for other uses of the tiles' bits
@@ -18,8 +18,8 @@ layout(std430) readonly buffer TileLightBlock {
 
 #ifdef TILE_LIGHTS
 // All pixels of a tile go through their loops alike: see docs/dev/drivers.md.
-uint lightFrom(uint light) {
-  uvec2 tile = uvec2(gl_FragCoord.xy) / kLightTile;
+uint lightFrom(uvec2 pixel, uint light) {
+  uvec2 tile = pixel / kLightTile;
   uint first = (tile.y * tileGrid.x + tile.x) * tileGrid.y, word = light / 32u;
   uint bits = 0u, from = 0xffffffffu << (light % 32u);
   for (; word < tileGrid.y && bits == 0u; ++word) {
@@ -28,9 +28,9 @@ uint lightFrom(uint light) {
   }
   return bits == 0u ? 0xffffffffu : (word - 1u) * 32u + uint(findLSB(bits));
 }
-uint firstLight() { return lightFrom(0u); }
-uint lightAfter(uint light) { return lightFrom(light + 1u); }
+uint firstLightAt(uvec2 pixel) { return lightFrom(pixel, 0u); }
+uint lightAfterAt(uvec2 pixel, uint light) { return lightFrom(pixel, light + 1u); }
 #else
-uint firstLight() { return 0u; }
-uint lightAfter(uint light) { return light + 1u; }
+uint firstLightAt(uvec2 pixel) { return 0u; }
+uint lightAfterAt(uvec2 pixel, uint light) { return light + 1u; }
 #endif

@@ -19,7 +19,7 @@ void main() {
   vec3 normalW = mat3(view.worldFromView) * decodeNormal(texelFetch(normal, pixel, 0).rg);
   vec3 planeW = planeNormalOf(pixel, positionW, normalW);
   mask = 0u;
-  for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i)) {
+  for (uint i = firstLightAt(uvec2(pixel)); i < lightCount.x; i = lightAfterAt(uvec2(pixel), i)) {
     LightValues light = lights[i];
     if (lightLayers[i] < 0 || !mayLight(light, positionW, normalW)) continue;
     vec3 toLightW = normalize(light.position.xyz - positionW * light.position.w);

@@ -14,7 +14,7 @@ void main() {
   if (s.type != kTypeCustom) discard;
   vec3 lit = ambientScale * ambientLight.rgb * s.occlusion;
   vec3 shadowed = lit;
-  for (uint i = firstLight(); i < lightCount.x; i = lightAfter(i)) {
+  for (uint i = firstLightAt(uvec2(pixel)); i < lightCount.x; i = lightAfterAt(uvec2(pixel), i)) {
     if (!mayLight(lights[i], s.positionW, s.normalW)) continue;
     LightSample light = sampleLight(lights[i], s.positionW);
     vec3 diffuse = light.irradiance * max(dot(s.normalW, light.toLightW), 0.0) / kPi;

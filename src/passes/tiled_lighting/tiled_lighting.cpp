@@ -11,13 +11,15 @@ namespace {
 void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports>& d) {
   using Params = TiledLighting::Params;
   d.param("shadows", &Params::shadows)
-      .choices({"none", "hard", "pcf", "pcss"})
+      .choices({"none", "hard", "pcf", "pcss", "layered"})
       .rebuilds(graph::Rebuild::Ports)
       .help(
           "hard: one comparison with the shadow map; pcf: percentage-closer filtering, the mean of "
           "kernel x kernel comparisons a texel apart; pcss: percentage-closer soft shadows, that "
           "of "
-          "comparisons all over the penumbra, whose width follows from a search for blockers.");
+          "comparisons all over the penumbra, whose width follows from a search for blockers; "
+          "layered: what ShadowBlur makes in screen space, hard shadows of lights without a "
+          "layer.");
   d.param("kernel", &Params::kernel)
       .range(1, 47)
       .help("pcf, pcss: comparisons along each side, odd; an even number is taken as the next.");
@@ -36,6 +38,12 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
       .help(
           "How far a point is moved off its surface before it is compared, as a factor on what "
           "keeps a plane from shadowing itself: the filter's reach there times the slope.");
+}
+
+// Null ports: `shadows` is not layered.
+bool hasLayers(const TiledLighting::Ports& ports) {
+  return ports.shadowMaps && ports.shadowLayers && ports.shadowMask && ports.layeredShadows &&
+         ports.layeredShadows->layers > 0;
 }
 
 }  // namespace
@@ -76,6 +84,17 @@ void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
         .optional()
         .help("What each light sees; without it there are no shadows.");
   }
+  if (d.values().shadows == Shadows::Layered) {
+    d.read("shadowLayers", &Ports::shadowLayers).optional().help("The layer of each light.");
+    d.read("shadowMask", &Ports::shadowMask)
+        .texture(Format::R32Uint)
+        .sameSizeAs("depth")
+        .optional()
+        .help("Hard shadows of layers, where no surface beside a pixel tells more.");
+    d.read("layeredShadows", &Ports::layeredShadows)
+        .optional()
+        .help("What each layer lets through; without it all lights have hard shadows.");
+  }
   d.update("color", &Ports::color)
       .texture(Format::Rgba16Float)
       .sizeOf("depth")
@@ -94,6 +113,7 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Ports& po
   if (ports.ambientVisibility) desc.defines["AMBIENT_VISIBILITY"] = "1";
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
+  if (hasLayers(ports)) desc.defines["LAYERED_SHADOWS"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
   if (!program) program = device_.program(desc);
   return *program;
@@ -119,6 +139,11 @@ gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params, c
     rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
   if (ports.shadowMaps)
     render::bindShadowMaps(rendering, *ports.shadowMaps, params.comparison == Comparison::Filtered);
+  if (hasLayers(ports)) {
+    rendering.buffer("ShadowLayerBlock", ports.shadowLayers->block);
+    rendering.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
+    rendering.texture("layeredShadows", ports.layeredShadows->visibility, gpu::kNearest);
+  }
   return rendering;
 }
 
@@ -133,7 +158,8 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
                           .cull = gpu::Cull::None});
   program.set("ambientScale", params.ambient);
   if (ports.shadowMaps) {
-    program.set("shadowFilterRadius", params.shadows == Shadows::Hard ? 0 : params.kernel / 2);
+    const bool filters = params.shadows == Shadows::Pcf || params.shadows == Shadows::Pcss;
+    program.set("shadowFilterRadius", filters ? params.kernel / 2 : 0);
     program.set("shadowSearchRadius", params.shadows == Shadows::Pcss ? params.search / 2 : -1);
     program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
     program.set("shadowBias", params.bias);

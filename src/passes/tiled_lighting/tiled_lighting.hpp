@@ -6,7 +6,9 @@
 
 #include "graph/pass_info.hpp"
 #include "render/gpu_scene.hpp"
+#include "render/layered_shadows.hpp"
 #include "render/light_list.hpp"
+#include "render/shadow_layers.hpp"
 #include "render/shadow_maps.hpp"
 #include "render/tile_lights.hpp"
 #include "render/view_data.hpp"
@@ -15,7 +17,7 @@ namespace lucerna::passes {
 
 class TiledLighting {
  public:
-  enum class Shadows { None, Hard, Pcf, Pcss };
+  enum class Shadows { None, Hard, Pcf, Pcss, Layered };
   enum class Comparison { Nearest, Filtered };
   struct Params {
     float ambient = 1.f;
@@ -32,6 +34,9 @@ class TiledLighting {
     graph::In<render::LightList> lights;
     graph::In<render::TileLights> tileLights;
     graph::In<render::ShadowMaps> shadowMaps;
+    graph::In<render::ShadowLayers> shadowLayers;
+    graph::In<render::LayeredShadows> layeredShadows;
+    graph::In<gpu::Texture> shadowMask;
     graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive, ambientVisibility;
     graph::InOut<gpu::Texture> color;
   };

@@ -1,0 +1,18 @@
+// Deferred shading in which all lights throw soft shadows, blurred in screen space in layers.
+// Objects with shaders of their own are drawn first, so that shadows darken them, too.
+pipeline({name: "layered", output: "ToneMap.color"});
+
+pass("Cull");
+pass("GBuffer");
+pass("CustomShaders");
+pass("ShadowMaps");
+pass("TileLights");
+pass("ShadowLayers", {layers: 32});
+pass("ShadowMask");
+pass("Penumbra");
+pass("ShadowBlur", {kernel: 11});
+pass("TiledLighting", {shadows: "layered"});
+pass("Background");
+pass("Mirrors");
+pass("Transparency");
+pass("ToneMap");

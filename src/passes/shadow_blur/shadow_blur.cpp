@@ -1,0 +1,83 @@
+#include "passes/shadow_blur/shadow_blur.hpp"
+
+#include <cmath>
+
+namespace lucerna::passes {
+
+using gpu::Format;
+
+void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
+  d.pass("ShadowBlur",
+         "Blurs the mask of hard shadows by the width of penumbrae, all layers at once.");
+  d.param("kernel", &Params::kernel)
+      .range(3, 47)
+      .help("Taps along each of two axes, odd; they spread over the widest penumbra of a pixel.");
+  d.param("maximumRadius", &Params::maximumRadius)
+      .range(2, 256)
+      .unit("px")
+      .rebuilds(graph::Rebuild::Ports)
+      .help("No pixel farther away counts: larger penumbrae are cut off.");
+  d.param("edgeSlope", &Params::edgeSlope)
+      .range(0.01, 10)
+      .help(
+          "What is farther off a pixel's tangent plane than this share of its distance is another "
+          "surface and does not count.");
+  const int halo = static_cast<int>(std::ceil(d.values().maximumRadius)) + 4;
+  d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
+  d.read("penumbrae", &Ports::penumbrae).help("Widths of penumbrae.");
+  d.read("shadowMask", &Ports::shadowMask)
+      .texture(Format::R32Uint)
+      .sameSizeAs("depth")
+      .halo(halo)
+      .help("Hard shadows.");
+  d.read("depth", &Ports::depth).texture(Format::Depth32F).halo(halo).help("Reversed depth.");
+  d.read("normal", &Ports::normal)
+      .texture(Format::Rg16Unorm)
+      .sameSizeAs("depth")
+      .halo(halo)
+      .help("View-space normal, octahedral.");
+  d.write("layeredShadows", &Ports::layeredShadows)
+      .help("What each layer lets through, at half the size.");
+}
+
+const gpu::Program& ShadowBlur::programOf(bool first, int arrayLayers) {
+  gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
+                        .fragment = "passes/shadow_blur/shadow_blur.frag",
+                        .defines = {{"ARRAY_LAYERS", std::to_string(arrayLayers)}}};
+  if (first) desc.defines["OF_MASK"] = "1";
+  gpu::ProgramPtr& program = programs_[desc];
+  if (!program) program = device_.program(desc);
+  return *program;
+}
+
+void ShadowBlur::blur(const Params& params, const Ports& ports, bool first,
+                      const gpu::Texture& to) {
+  gpu::Rendering rendering = device_.render(render::targetsOf(to));
+  const gpu::Program& program = programOf(first, render::arrayLayersOf(ports.penumbrae->layers));
+  rendering.use(program, {.cull = gpu::Cull::None});
+  rendering.buffer("ViewBlock", ports.view->block);
+  rendering.texture("penumbrae", ports.penumbrae->widths, gpu::kNearest);
+  rendering.texture("depth", *ports.depth, gpu::kNearest);
+  rendering.texture("normal", *ports.normal, gpu::kNearest);
+  if (first)
+    rendering.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
+  else
+    rendering.texture("alongX", along_, gpu::kNearest);
+  program.set("taps", params.kernel / 2);
+  program.set("maximumRadius", 0.5f * params.maximumRadius);
+  program.set("edgeSlope", params.edgeSlope);
+  rendering.fullscreen();
+}
+
+void ShadowBlur::execute(graph::PassContext&, const Params& params, const Ports& ports) {
+  render::LayeredShadows& out = *ports.layeredShadows;
+  out.layers = ports.penumbrae->layers;
+  for (gpu::Texture* texture : {&along_, &out.visibility})
+    render::fitLayers(device_, *texture, Format::R32Uint, *ports.depth, out.layers,
+                      "layered shadows");
+  if (out.layers == 0) return;
+  blur(params, ports, true, along_);
+  blur(params, ports, false, out.visibility);
+}
+
+}  // namespace lucerna::passes

@@ -1,0 +1,40 @@
+// ShadowBlur: soft shadows in screen space, from a mask of hard ones and the widths of penumbrae.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "graph/pass_info.hpp"
+#include "render/layered_shadows.hpp"
+#include "render/view_data.hpp"
+
+namespace lucerna::passes {
+
+class ShadowBlur {
+ public:
+  struct Params {
+    int kernel = 11;             // taps along each axis, odd
+    float maximumRadius = 48.f;  // px of the picture
+    float edgeSlope = 0.3f;
+  };
+  struct Ports {
+    graph::In<render::ViewData> view;
+    graph::In<render::Penumbrae> penumbrae;
+    graph::In<gpu::Texture> shadowMask, depth, normal;
+    graph::Out<render::LayeredShadows> layeredShadows;
+  };
+
+  static void describe(graph::PassInfo<Params, Ports>& d);
+  explicit ShadowBlur(gpu::Device& device) : device_(device) {}
+  void execute(graph::PassContext& context, const Params& params, const Ports& ports);
+
+ private:
+  void blur(const Params& params, const Ports& ports, bool first, const gpu::Texture& to);
+  const gpu::Program& programOf(bool first, int arrayLayers);
+
+  gpu::Device& device_;
+  std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;
+  gpu::Texture along_;  // blurred along x
+};
+
+}  // namespace lucerna::passes
