@@ -26,6 +26,8 @@ layout(location = 0) out uint visibility[ARRAY_LAYERS];  // four layers, a byte 
 const int kLayers = 4 * ARRAY_LAYERS;
 // The standard deviation of a disc light's penumbra, as a share of its width; and how far a kernel goes, in deviations.
 const float kDeviation = 0.25, kReach = 2.2;
+// By how much reversed depth differs within a surface, from pixel to pixel.
+const float kSameDepth = 0.1;
 
 // By how many pixels of half the size a metre along a direction shifts the point.
 vec2 pixelsOfMetre(vec4 clip, vec3 directionV) {
@@ -50,6 +52,12 @@ vec2 axisOf(vec3 positionW, vec3 normalW) {
 #else
   return sqrt(yy) * vec2(xy / yy, 1.0);
 #endif
+}
+
+// Of four pixels, those that show the surface of the one that stands for them, by their reversed depths.
+vec4 sharesOf(vec4 depths, float own) {
+  vec4 same = vec4(lessThanEqual(abs(depths - own), vec4(kSameDepth * own)));
+  return same / max(dot(same, vec4(1.0)), 1.0);
 }
 
 vec4 widthsAt(ivec2 texel, int i) { return texelFetch(penumbrae, ivec3(texel, i), 0); }
@@ -82,13 +90,15 @@ void main() {
     bool same = i == 0 || abs(dot(away, planeW)) <= edgeSlope * length(away);
     float metres = float(i) * apart / length1;
 #ifdef OF_MASK
-    uvec4 bits = textureGather(shadowMask, (2.0 * vec2(tap) + 1.0) / vec2(textureSize(shadowMask, 0)));
+    vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(textureSize(shadowMask, 0));
+    uvec4 bits = textureGather(shadowMask, corner);
+    vec4 shares = sharesOf(textureGather(depth, corner), texelFetch(depth, min(2 * tap, 2 * last), 0).r);
 #endif
     for (int l = 0; l < kLayers; ++l) {
       float weight = same ? exp(exponents[l] * metres * metres) : 0.0;
 #ifdef OF_MASK
       uvec4 blocked = bits >> uint(l) & 1u;
-      float lit = 1.0 - 0.25 * float(blocked.x + blocked.y + blocked.z + blocked.w);
+      float lit = 1.0 - dot(shares, vec4(blocked));
 #else
       float lit = float(texelFetch(alongX, ivec3(tap, l / 4), 0).r >> uint(8 * (l % 4)) & 255u) / 255.0;
 #endif
