@@ -185,15 +185,15 @@ class TypedInstance final : public PassInstance {
     params_ = info_.values();
   }
   void execute(PassContext& context, std::span<const BoundPort> bound) override {
-    info_.bind(ports_, bound);
-    pass_.execute(context, params_, ports_);
+    typename Pass::Ports ports;  // new, for parameters may have taken some away
+    info_.bind(ports, bound);
+    pass_.execute(context, params_, ports);
   }
 
  private:
   Pass pass_;
   PassInfo<typename Pass::Params, typename Pass::Ports> info_;
   typename Pass::Params params_{};
-  typename Pass::Ports ports_;
 };
 
 template <typename Pass>

@@ -30,10 +30,11 @@ Stage stageOf(const std::string& type) {
             "ToneMap.color"};
   if (type == "ShadowMaps" || type == "TiledLighting")
     return {{"Cull", "GBuffer", "ShadowMaps", "TiledLighting", "ToneMap"}, "ToneMap.color"};
-  if (type == "ShadowLayers" || type == "ShadowMask")
+  if (type == "TileLights" || type == "ShadowLayers" || type == "ShadowMask" ||
+      type == "Penumbra" || type == "ShadowBlur")
     return {{"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask",
-             "TiledLighting", "ToneMap"},
-            "ShadowMask.shadowMask"};
+             "Penumbra", "ShadowBlur", "TiledLighting", "ToneMap"},
+            "ToneMap.color"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
@@ -47,6 +48,16 @@ Stage stageOf(const std::string& type) {
   if (std::ranges::find(testing::kDeferredRows, type) != testing::kDeferredRows.end())
     return {testing::kDeferredRows, "ToneMap.color"};
   return {{"Cull", "GBuffer", "TiledLighting", type, "ToneMap"}, "ToneMap.color"};
+}
+
+// With layered shadows, if there is who makes them.
+graph::Pipeline pipelineOf(const Stage& stage) {
+  graph::Pipeline pipeline = testing::rows(stage.rows);
+  pipeline.output = stage.value;
+  if (std::ranges::find(stage.rows, "ShadowBlur") != stage.rows.end())
+    for (graph::PassRow& row : pipeline.passes)
+      if (row.type == "TiledLighting") row.params["shadows"] = std::string("layered");
+  return pipeline;
 }
 
 // Values at the ends of a parameter's range.
@@ -102,8 +113,7 @@ TEST_P(EachPassDraws, FiniteValuesAtTheEndsOfEachParameter) {
                                          ? std::vector{stage.params.at(param.name)}
                                          : extremes(param)) {
       SCOPED_TRACE(param.name + "=" + graph::toText(value));
-      graph::Pipeline pipeline = testing::rows(stage.rows);
-      pipeline.output = stage.value;
+      graph::Pipeline pipeline = pipelineOf(stage);
       for (graph::PassRow& row : pipeline.passes)
         if (row.type == GetParam()) row.params[param.name] = value;
       auto output = renderer.render(pipeline, kSize, kept);
@@ -121,7 +131,8 @@ TEST_P(EachPassDraws, NothingWrongWhileItIsDisabled) {
   const scene::Scene scene = testing::sampleScene();
   testing::SceneRenderer renderer(scene);
   const Stage stage = stageOf(GetParam());
-  graph::Pipeline pipeline = testing::rows(stage.rows);
+  graph::Pipeline pipeline = pipelineOf(stage);
+  pipeline.output = "";
   for (graph::PassRow& row : pipeline.passes) row.enabled = row.type != GetParam();
   auto output = renderer.render(pipeline, kSize, testing::radianceNames(pipeline));
   ASSERT_TRUE(output) << output.error().message;

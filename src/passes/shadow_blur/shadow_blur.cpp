@@ -24,7 +24,9 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
           "surface and does not count.");
   const int halo = static_cast<int>(std::ceil(d.values().maximumRadius)) + 4;
   d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
-  d.read("penumbrae", &Ports::penumbrae).help("Widths of penumbrae.");
+  d.read("penumbrae", &Ports::penumbrae)
+      .optional()
+      .help("Widths of penumbrae; without it no layer is made.");
   d.read("shadowMask", &Ports::shadowMask)
       .texture(Format::R32Uint)
       .sameSizeAs("depth")
@@ -71,7 +73,7 @@ void ShadowBlur::blur(const Params& params, const Ports& ports, bool first,
 
 void ShadowBlur::execute(graph::PassContext&, const Params& params, const Ports& ports) {
   render::LayeredShadows& out = *ports.layeredShadows;
-  out.layers = ports.penumbrae->layers;
+  out.layers = ports.penumbrae ? ports.penumbrae->layers : 0;
   for (gpu::Texture* texture : {&along_, &out.visibility})
     render::fitLayers(device_, *texture, Format::R32Uint, *ports.depth, out.layers,
                       "layered shadows");

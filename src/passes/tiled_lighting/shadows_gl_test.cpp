@@ -259,8 +259,32 @@ double visibleShareOfDisc(double t) {
   return 0.5 + (t * std::sqrt(1. - t * t) + std::asin(t)) / static_cast<double>(kPi);
 }
 
-TEST(SoftShadows, ArePenumbraeOfTheRightWidth) {
-  constexpr uvec2 kPicture{257, 65};
+// shadows: of TiledLighting, with what it needs.
+graph::Pipeline softRows(const std::string& shadows) {
+  std::vector<std::string> types{"Cull", "GBuffer", "ShadowMaps", "TileLights", "TiledLighting"};
+  if (shadows == "none") std::erase(types, "ShadowMaps");
+  if (shadows == "layered")
+    types.insert(types.end() - 1, {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"});
+  graph::Pipeline pipeline = testing::rows(types);
+  pipeline.passes.back().params = {
+      {"shadows", shadows}, {"kernel", std::int64_t{23}}, {"search", std::int64_t{11}}};
+  for (graph::PassRow& row : pipeline.passes) {
+    if (row.type == "ShadowLayers") row.params["layers"] = std::int64_t{32};
+    if (row.type == "Penumbra") row.params["search"] = std::int64_t{11};
+    if (row.type == "ShadowBlur") row.params["kernel"] = std::int64_t{23};
+  }
+  return pipeline;
+}
+
+class SoftShadows : public ::testing::TestWithParam<std::string> {
+ protected:
+  void TearDown() override { testing::expectNoDebugMessages(); }
+};
+INSTANTIATE_TEST_SUITE_P(By, SoftShadows, ::testing::Values("pcss", "layered"),
+                         [](const auto& parameter) { return parameter.param; });
+
+TEST_P(SoftShadows, ArePenumbraeOfTheRightWidth) {
+  constexpr uvec2 kPicture{513, 129};
   constexpr float kLampX = -1.f, kEdgeX = 0.f, kHalfWay = 0.5f * kWall;
   for (const float radius : {0.2f, 0.4f, 0.8f}) {
     SCOPED_TRACE(radius);
@@ -273,17 +297,14 @@ TEST(SoftShadows, ArePenumbraeOfTheRightWidth) {
     addLamp(scene, scene::LightKind::Spot, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
     scene.lights.back().radius = radius;
     updateTransforms(scene);
-    const auto rowOf = [&](const char* shadows) {
-      graph::Pipeline pipeline = shadowRows();
-      for (graph::PassRow& row : pipeline.passes) {
-        if (row.type == "ShadowMaps") row.params["localSize"] = 2048;
-        if (row.type == "TiledLighting")
-          row.params = {{"shadows", std::string(shadows)}, {"kernel", 23}, {"search", 11}};
-      }
+    const auto rowOf = [&](const std::string& shadows) {
+      graph::Pipeline pipeline = softRows(shadows);
+      for (graph::PassRow& row : pipeline.passes)
+        if (row.type == "ShadowMaps") row.params["localSize"] = std::int64_t{2048};
       return testing::asFloatRgb(
           testing::valueOf(scene, pipeline, kPicture, "TiledLighting.color"));
     };
-    const Image lit = rowOf("none"), soft = rowOf("pcss");
+    const Image lit = rowOf("none"), soft = rowOf(GetParam());
     const float aspect = static_cast<float>(kPicture.x) / static_cast<float>(kPicture.y);
     const float width = 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY) * aspect;  // m
     const float middle = kEdgeX + (kEdgeX - kLampX);  // as far behind the edge as before it
@@ -300,6 +321,41 @@ TEST(SoftShadows, ArePenumbraeOfTheRightWidth) {
     EXPECT_GT(within, 3);
     EXPECT_LT(worst, 0.12);
   }
+}
+
+// However many lamps overlap, each has the shadow that it has alone: light adds up.
+TEST_P(SoftShadows, OfLampsTogetherAreThoseOfEachAlone) {
+  constexpr uvec2 kPicture{96, 64};
+  constexpr int kLamps = 32;
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  addCube(scene, {0, 0, -4}, 0.7f);
+  for (int i = 0; i < kLamps; ++i) {
+    const float turn = 2.f * kPi * static_cast<float>(i) / kLamps;
+    addLamp(scene, scene::LightKind::Spot, {1.5f * std::cos(turn), std::sin(turn), -1.f},
+            {0, 0, -kWall});
+    scene.lights.back().radius = 0.1f;
+    scene.lights.back().intensity = 2.f;
+  }
+  updateTransforms(scene);
+  const auto picture = [&] {
+    return testing::asFloatRgb(
+        testing::valueOf(scene, softRows(GetParam()), kPicture, "TiledLighting.color"));
+  };
+  const Image together = picture();
+  std::vector<double> sum(together.as<float>().size());
+  for (int i = 0; i < kLamps; ++i) {
+    for (int j = 0; j < kLamps; ++j) scene.lights[static_cast<std::size_t>(j)].on = i == j;
+    const Image alone = picture();
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += alone.as<float>()[k];
+  }
+  double brightest = 0, worst = 0;
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    brightest = std::max(brightest, sum[k]);
+    worst = std::max(worst, std::abs(sum[k] - together.as<float>()[k]));
+  }
+  EXPECT_GT(brightest, 0.5);
+  EXPECT_LT(worst, 2. / 255. * brightest);
 }
 
 }  // namespace
