@@ -6,6 +6,9 @@ vec3 positionWOf(ivec2 pixel) {
   return worldOfView(positionVOf(ndcOfPixel(vec2(pixel) + 0.5), reversedDepth));
 }
 
+// Both sides are as good if they differ by less; rounding then does not choose.
+const float kSameSide = 1e-3;
+
 // The way along the surface from the pixel to one of two opposite neighbours: to the one that is more
 // across the shading normal, for the other may show another surface.
 vec3 alongSurface(vec3 positionW, vec3 normalW, ivec2 pixel, ivec2 side) {
@@ -16,7 +19,7 @@ vec3 alongSurface(vec3 positionW, vec3 normalW, ivec2 pixel, ivec2 side) {
   float a = dot(forward, forward), b = dot(backward, backward);
   float offA = a > 0.0 ? abs(dot(forward, normalW)) * inversesqrt(a) : 2.0;
   float offB = b > 0.0 ? abs(dot(backward, normalW)) * inversesqrt(b) : 2.0;
-  return offA <= offB ? forward : backward;
+  return offA <= offB + kSameSide ? forward : backward;
 }
 
 // The normal of the plane through the pixel and its neighbours: shading normals lean, and a plane
