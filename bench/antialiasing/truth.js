@@ -4,6 +4,7 @@ pipeline({name: "truth", output: "ToneMap.color"});
 
 pass("Cull");
 const g = pass("GBuffer");
+pass("TileLights");
 pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");

@@ -3,6 +3,7 @@ pipeline({name: "edges", output: "Edges.color"});
 
 pass("Cull");
 const g = pass("GBuffer");
+pass("TileLights");
 pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");

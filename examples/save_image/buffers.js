@@ -6,6 +6,7 @@ const g = pass("GBuffer");
 pass("SaveImage", {name: "Albedo", reads: {color: g.albedo}, file: "albedo-%04d.png"});
 pass("SaveImage", {name: "Normal", reads: {color: g.normal}, file: "normal-%04d.exr"});
 pass("SaveImage", {name: "Depth", reads: {color: g.depth}, file: "depth-%04d.exr"});
+pass("TileLights");
 pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");

@@ -3,6 +3,7 @@ pipeline({name: "vignette"});
 
 pass("Cull");
 pass("GBuffer");
+pass("TileLights");
 pass("TiledLighting");
 pass("CustomShaders");
 pass("Background");

@@ -364,7 +364,8 @@ TEST_F(SessionTest, AChangedShaderOfAFullscreenRowIsReadAgainAndAFaultyOneLeaves
 
 TEST_F(SessionTest, AFaultyPipelineRendersNothing) {
   const std::filesystem::path file = folder_ / "bad.json";
-  ASSERT_TRUE(writeText(file, R"({"lucerna": "pipeline/1", "passes": [{"type": "TiledLightning"}]})"));
+  ASSERT_TRUE(
+      writeText(file, R"({"lucerna": "pipeline/1", "passes": [{"type": "TiledLightning"}]})"));
   settings_.pipeline = file;
   auto session = openSession(settings_);
   ASSERT_TRUE(session) << session.error().message;

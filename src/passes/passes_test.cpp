@@ -108,7 +108,8 @@ TEST(ShippedRows, MayBeDisabledOneByOneButForCull) {
 }
 
 TEST(ShippedRows, InAnOrderThatReadsBeforeWritingAreRefused) {
-  const graph::Validation validation = validated(rows({"Cull", "TiledLighting", "GBuffer", "ToneMap"}));
+  const graph::Validation validation =
+      validated(rows({"Cull", "TiledLighting", "GBuffer", "ToneMap"}));
   EXPECT_FALSE(validation.ok());
 }
 

@@ -68,8 +68,11 @@ void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool 
   commands.buffer("ShadowLightBlock", shadowMaps.lightBlock);
   commands.texture("directionalShadowMaps", shadowMaps.directional, sampler);
   commands.texture("localShadowMaps", shadowMaps.local, sampler);
-  commands.texture("directionalShadowDepths", shadowMaps.directional, gpu::kNearest);
-  commands.texture("localShadowDepths", shadowMaps.local, gpu::kNearest);
+  const gpu::Sampler depths{.filter = gpu::Filter::Nearest,
+                            .u = gpu::Address::ClampToBorder,
+                            .v = gpu::Address::ClampToBorder};
+  commands.texture("directionalShadowDepths", shadowMaps.directional, depths);
+  commands.texture("localShadowDepths", shadowMaps.local, depths);
 }
 
 }  // namespace lucerna::render

@@ -24,7 +24,8 @@ TEST(Script, MakesRowsWithPlacesReadsAndParams) {
   const auto pipeline = runPipelineSource(
       "const g = pass('GBuffer');\n"
       "\n"
-      "const l = pass('TiledLighting', {name: 'Light', enabled: false, reads: {depth: g.depth, normal: "
+      "const l = pass('TiledLighting', {name: 'Light', enabled: false, reads: {depth: g.depth, "
+      "normal: "
       "g},\n"
       "                            params: {a: 1}, b: [0.5, 2], c: 'x', d: true});\n"
       "pipeline({name: 'mine', output: l.color});\n",

@@ -32,8 +32,8 @@ void expectNoDebugMessages();
 graph::Pipeline rows(const std::vector<std::string>& types);
 extern const std::vector<std::string> kDeferredRows, kForwardRows;
 
-// The values that the pipeline's ToneMap rows read, "TiledLighting.color": in these floats a NaN shows,
-// 8-bit pictures cannot hold one. Empty if the pipeline is faulty.
+// The values that the pipeline's ToneMap rows read, "TiledLighting.color": in these floats a NaN
+// shows, 8-bit pictures cannot hold one. Empty if the pipeline is faulty.
 std::vector<std::string> radianceNames(const graph::Pipeline& pipeline);
 
 // A scene on the GPU, drawn through any number of pipelines.

@@ -20,10 +20,12 @@ struct Way {
   std::vector<std::string> rows;
   std::string value;
 };
-const Way kAfter{{"Cull", "GBuffer", "TiledLighting", "CustomShaders", "Background", "Transparency"},
-                 "Transparency.color"};
-const Way kBefore{{"Cull", "GBuffer", "CustomShaders", "TiledLighting", "Background", "Transparency"},
-                  "Transparency.color"};
+const Way kAfter{
+    {"Cull", "GBuffer", "TiledLighting", "CustomShaders", "Background", "Transparency"},
+    "Transparency.color"};
+const Way kBefore{
+    {"Cull", "GBuffer", "CustomShaders", "TiledLighting", "Background", "Transparency"},
+    "Transparency.color"};
 const Way kForward{{"Cull", "Forward", "Background", "Transparency"}, "Transparency.color"};
 
 class CustomShaders : public ::testing::Test {

@@ -1,8 +1,11 @@
 // The width of each layer's penumbra, at half the size.
 //   ARRAY_LAYERS  four layers in each
 //   TILE_LIGHTS   see render/tile_lights.glsl
-// variant: ARRAY_LAYERS=1
+// variant: ARRAY_LAYERS=3
 // variant: ARRAY_LAYERS=8 TILE_LIGHTS=1
+#ifndef ARRAY_LAYERS
+#define ARRAY_LAYERS 1
+#endif
 #include "render/lights.glsl"
 #include "render/normal_encoding.glsl"
 #include "render/shadow_layers.glsl"

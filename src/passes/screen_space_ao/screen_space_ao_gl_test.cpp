@@ -87,8 +87,8 @@ TEST_P(ScreenSpaceAo, DimsAmbientLightAlone) {
     for (scene::Light& light : scene.lights) light.ambientIntensity = 0.f;
     const Image with = testing::valueOf(scene, rows({{"radius", 2.0}, {"method", GetParam()}}),
                                         kSize, "TiledLighting.color");
-    const Image without = testing::valueOf(scene, testing::rows({"Cull", "GBuffer", "TiledLighting"}),
-                                           kSize, "TiledLighting.color");
+    const Image without = testing::valueOf(
+        scene, testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize, "TiledLighting.color");
     EXPECT_EQ(std::ranges::equal(with.bytes(), without.bytes()), !ambient);
   }
 }

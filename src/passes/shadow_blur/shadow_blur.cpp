@@ -16,13 +16,14 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
       .range(2, 256)
       .unit("px")
       .rebuilds(graph::Rebuild::Ports)
-      .help("No pixel farther away counts: larger penumbrae are cut off.");
+      .help("Along each axis nothing farther away counts: larger penumbrae are cut off.");
   d.param("edgeSlope", &Params::edgeSlope)
       .range(0.01, 10)
       .help(
           "What is farther off a pixel's tangent plane than this share of its distance is another "
           "surface and does not count.");
-  const int halo = static_cast<int>(std::ceil(d.values().maximumRadius)) + 4;
+  // Both axes reach along x, as the second is askew.
+  const int halo = 2 * static_cast<int>(std::ceil(d.values().maximumRadius)) + 4;
   d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
   d.read("penumbrae", &Ports::penumbrae)
       .optional()

@@ -4,6 +4,9 @@
 //                 of what the first has left
 // variant: ARRAY_LAYERS=1 OF_MASK=1
 // variant: ARRAY_LAYERS=8
+#ifndef ARRAY_LAYERS
+#define ARRAY_LAYERS 1
+#endif
 #include "render/normal_encoding.glsl"
 #include "render/view.glsl"
 
@@ -26,8 +29,8 @@ layout(location = 0) out uint visibility[ARRAY_LAYERS];  // four layers, a byte 
 const int kLayers = 4 * ARRAY_LAYERS;
 // The standard deviation of a disc light's penumbra, as a share of its width; and how far a kernel goes, in deviations.
 const float kDeviation = 0.25, kReach = 2.2;
-// By how much reversed depth differs within a surface, from pixel to pixel.
-const float kSameDepth = 0.1;
+// By how much distances differ within a surface, from pixel to pixel, as a share of them.
+const float kSameDistance = 0.1;
 
 // By how many pixels of half the size a metre along a direction shifts the point.
 vec2 pixelsOfMetre(vec4 clip, vec3 directionV) {
@@ -54,9 +57,16 @@ vec2 axisOf(vec3 positionW, vec3 normalW) {
 #endif
 }
 
-// Of four pixels, those that show the surface of the one that stands for them, by their reversed depths.
+// Distance from the eye's plane, m.
+vec4 distancesOf(vec4 reversedDepths) {
+  mat4 p = view.viewFromClip;  // (x, y, depth, 1): z and w depend on the depth alone
+  return -(p[2][2] * reversedDepths + p[3][2]) / (p[2][3] * reversedDepths + p[3][3]);
+}
+
+// Of four pixels, those that show the surface of the one that stands for them.
 vec4 sharesOf(vec4 depths, float own) {
-  vec4 same = vec4(lessThanEqual(abs(depths - own), vec4(kSameDepth * own)));
+  float distance = distancesOf(vec4(own)).x;
+  vec4 same = vec4(lessThanEqual(abs(distancesOf(max(depths, 1e-9)) - distance), vec4(kSameDistance * distance)));
   return same / max(dot(same, vec4(1.0)), 1.0);
 }
 
@@ -64,7 +74,10 @@ vec4 widthsAt(ivec2 texel, int i) { return texelFetch(penumbrae, ivec3(texel, i)
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = 2 * texel, last = textureSize(penumbrae, 0).xy - 1;
-  bool nothing = texelFetch(depth, pixel, 0).r == 0.0;
+  if (isEmpty(pixel)) {
+    for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = 0xffffffffu;
+    return;
+  }
   vec3 positionW = positionWOf(pixel);
   vec3 normalW = mat3(view.worldFromView) * decodeNormal(texelFetch(normal, pixel, 0).rg);
   vec3 planeW = planeNormalOf(pixel, positionW, normalW);
@@ -83,16 +96,16 @@ void main() {
   float radius = min(kReach * widest * length1, maximumRadius);
   float apart = max(radius / float(taps), 1.0);  // px
   vec2 direction = axis / length1;
-  int end = nothing || widest == 0.0 ? 0 : taps;
+  int end = widest == 0.0 ? 0 : taps;
   for (int i = -end; i <= end; ++i) {
     ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);
     vec3 away = positionWOf(2 * tap) - positionW;
-    bool same = i == 0 || abs(dot(away, planeW)) <= edgeSlope * length(away);
+    bool same = i == 0 || (!isEmpty(2 * tap) && abs(dot(away, planeW)) <= edgeSlope * length(away));
     float metres = float(i) * apart / length1;
 #ifdef OF_MASK
     vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(textureSize(shadowMask, 0));
     uvec4 bits = textureGather(shadowMask, corner);
-    vec4 shares = sharesOf(textureGather(depth, corner), texelFetch(depth, min(2 * tap, 2 * last), 0).r);
+    vec4 shares = sharesOf(textureGather(depth, corner), texelFetch(depth, 2 * tap, 0).r);
 #endif
     for (int l = 0; l < kLayers; ++l) {
       float weight = same ? exp(exponents[l] * metres * metres) : 0.0;

@@ -20,7 +20,14 @@ void ShadowLayers::describe(graph::PassInfo<Params, Ports>& d) {
       .help(
           "Which lights may not share a layer. spheres: those whose lit volumes may meet, by "
           "spheres "
-          "around them (system C); tiles: those that both reach what is seen in some tile.");
+          "around them (system C); tiles: those that both reach what is seen in some tile, or in "
+          "tiles near each other.");
+  d.param("apart", &Params::apart)
+      .range(0, 512)
+      .unit("px")
+      .help(
+          "tiles: how far what lights of one layer reach is to be apart: as far as ShadowBlur "
+          "reaches, or the shadow of one falls into the light of another.");
   d.param("order", &Params::order)
       .choices({"degree", "saturation"})
       .help(
@@ -61,6 +68,7 @@ OverlapGraph ShadowLayers::overlaps(gpu::Device& device, const Params& params, c
     computing.buffer("TileLightBlock", ports.tileLights->block);
     computing.buffer("ConflictBlock", conflicts_);
     conflictsProgram_->set("tiles", static_cast<int>(ports.tileLights->tiles));
+    conflictsProgram_->set("reach", (params.apart + render::kLightTile - 1) / render::kLightTile);
     computing.dispatch((ports.tileLights->tiles + 63) / 64);
   }
   device.barrier();

@@ -20,6 +20,7 @@ class ShadowLayers {
   struct Params {
     int layers = 8;
     Conflicts conflicts = Conflicts::Tiles;
+    int apart = 48;  // px
     ColourOrder order = ColourOrder::Saturation;
     bool sunAlone = true;
   };

@@ -13,7 +13,7 @@
 namespace lucerna {
 namespace {
 
-const std::vector<std::string> kRows = {"Cull",       "GBuffer", "TiledLighting",        "CustomShaders",
+const std::vector<std::string> kRows = {"Cull",       "GBuffer", "TiledLighting",   "CustomShaders",
                                         "Background", "ToneMap", "GeometrySamples", "Sraa"};
 
 // By the surfaces' depth, and by their normals too.

@@ -19,7 +19,7 @@ void main() {
     LightSample light = sampleLight(lights[i], s.positionW);
     vec3 diffuse = light.irradiance * max(dot(s.normalW, light.toLightW), 0.0) / kPi;
     lit += diffuse;
-    shadowed += diffuse * shadowVisibility(i, s.positionW, planeNormalW, light.toLightW);
+    shadowed += diffuse * lightVisibility(s, i);
   }
   factor = vec4(mix(vec3(1.0), shadowed / max(lit, 1e-9), greaterThan(lit, vec3(1e-9))), 1.0);
 }

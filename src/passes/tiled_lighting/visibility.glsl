@@ -25,7 +25,7 @@ void findTexels(ivec2 pixel, vec3 positionW) {
   for (int i = 0; i < 4; ++i) {
     texels[i] = min(pixel / 2 + ivec2(i & 1, i >> 1), last);
     vec3 away = positionWOf(2 * texels[i]) - positionW;
-    bool same = abs(dot(away, planeNormalW)) <= 0.3 * length(away) + 1e-6;
+    bool same = !isEmpty(2 * texels[i]) && abs(dot(away, planeNormalW)) <= 0.3 * length(away) + 1e-6;
     texelWeights[i] = same ? nearness[i] : 0.0;
   }
 }

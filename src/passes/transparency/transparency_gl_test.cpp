@@ -9,8 +9,8 @@ constexpr uvec2 kSize{9, 9};
 
 Image radiance(const scene::Scene& scene) {
   return testing::valueOf(
-      scene, testing::rows({"Cull", "GBuffer", "TiledLighting", "Background", "Transparency"}), kSize,
-      "Transparency.color");
+      scene, testing::rows({"Cull", "GBuffer", "TiledLighting", "Background", "Transparency"}),
+      kSize, "Transparency.color");
 }
 
 scene::Material& addPane(scene::Scene& scene, float distance, float opacity, vec3 emissive,
