@@ -1,0 +1,112 @@
+// Widths of penumbrae against their closed form: by the three passes that make them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "passes/penumbra/penumbra.hpp"
+#include "passes/shadow_layers/shadow_layers.hpp"
+#include "passes/shadow_maps/shadow_maps.hpp"
+#include "support/testing.hpp"
+
+namespace lucerna {
+namespace {
+
+constexpr uvec2 kSize{256, 64};
+constexpr float kWall = 6.f;    // m before the camera
+constexpr float kLampX = -1.f;  // m; the half-plane's edge is at 0, half way to the wall
+
+// A spot lamp beside the camera, a half-plane between it and a wall.
+scene::Scene halfPlane(float radius) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  scene.meshes.push_back(testing::cubeMesh());
+  const mat4 place = glm::translate(mat4(1.f), vec3(-20, 0, -0.5f * kWall));
+  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
+                     glm::scale(place, vec3(40, 40, 1e-3f)));
+  scene::Light light;
+  light.kind = scene::LightKind::Spot;
+  light.intensity = 100.f;
+  light.radius = radius;
+  light.outerCone = 1.f;
+  testing::addLight(scene, light, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
+  updateTransforms(scene);
+  return scene;
+}
+
+gpu::Texture uploaded(const Image& image, gpu::Format format) {
+  gpu::Texture texture = testing::device().createTexture(
+      {.format = format, .width = image.width(), .height = image.height()}, "copy");
+  testing::device().upload(texture, image);
+  return texture;
+}
+
+// Of the middle row, m, at half the size.
+std::vector<float> widthsOf(const scene::Scene& scene) {
+  testing::SceneRenderer renderer(scene);
+  auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
+                                {"GBuffer.depth", "GBuffer.normal"});
+  CHECK(static_cast<bool>(output), "{}", output.error().message);
+  const gpu::Texture depth = uploaded(output->kept.at("GBuffer.depth"), gpu::Format::Depth32F);
+  const gpu::Texture normal = uploaded(output->kept.at("GBuffer.normal"), gpu::Format::Rg16Unorm);
+  graph::PassContext context{.device = testing::device()};
+  const render::ViewGroup views{{renderer.view.view}};
+
+  render::ShadowMaps maps;
+  passes::ShadowMaps::Ports mapPorts;
+  mapPorts.scene.bind(&renderer.gpuScene);
+  mapPorts.lights.bind(&renderer.lights);
+  mapPorts.views.bind(&views);
+  mapPorts.shadowMaps.bind(&maps);
+  passes::ShadowMaps(testing::device()).execute(context, {.localSize = 2048}, mapPorts);
+
+  render::ShadowLayers layers;
+  passes::ShadowLayers::Ports layerPorts;
+  layerPorts.scene.bind(&renderer.gpuScene);
+  layerPorts.lights.bind(&renderer.lights);
+  layerPorts.shadowMaps.bind(&maps);
+  layerPorts.shadowLayers.bind(&layers);
+  passes::ShadowLayers(testing::device()).execute(context, {}, layerPorts);
+
+  render::Penumbrae penumbrae;
+  passes::Penumbra::Ports ports;
+  ports.view.bind(&renderer.view);
+  ports.lights.bind(&renderer.lights);
+  ports.shadowMaps.bind(&maps);
+  ports.shadowLayers.bind(&layers);
+  ports.depth.bind(&depth);
+  ports.normal.bind(&normal);
+  ports.penumbrae.bind(&penumbrae);
+  passes::Penumbra(testing::device()).execute(context, {.search = 11}, ports);
+  EXPECT_EQ(penumbrae.layers, 1);
+  const Image image =
+      converted(testing::device().download(penumbrae.widths), ComponentType::F32, 4);
+  std::vector<float> widths;
+  for (int x = 0; x < image.width(); ++x)
+    widths.push_back(image.pixel<float>(x, image.height() / 2)[0]);
+  return widths;
+}
+
+TEST(PenumbraWidths, AreThoseOfADiscAndLinearInItsSize) {
+  std::vector<double> found;
+  const std::vector<float> radii{0.1f, 0.2f, 0.4f, 0.8f};
+  for (const float radius : radii) {
+    SCOPED_TRACE(radius);
+    const scene::Scene scene = halfPlane(radius);
+    const std::vector<float> widths = widthsOf(scene);
+    const float aspect = static_cast<float>(kSize.x) / static_cast<float>(kSize.y);
+    const float metres = 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY) * aspect;
+    // The middle of the penumbra is as far behind the edge as the lamp is before it.
+    const auto middle =
+        static_cast<std::size_t>((0.5f - kLampX / metres) * static_cast<float>(widths.size()));
+    found.push_back(widths[middle]);
+    EXPECT_NEAR(widths[middle], 2.f * radius, 0.1f * 2.f * radius);
+    EXPECT_EQ(widths.back(), 0.f) << "nothing is in the way there";
+  }
+  const double exponent = std::log(found.back() / found.front()) /
+                          std::log(static_cast<double>(radii.back() / radii.front()));
+  EXPECT_NEAR(exponent, 1., 0.03);
+  testing::expectNoDebugMessages();
+}
+
+}  // namespace
+}  // namespace lucerna
