@@ -96,6 +96,7 @@ void ShadowLayers::execute(graph::PassContext& context, const Params& params, co
     if (shadowed[i] && out.ofLight[i] == kNoLayer)
       beyond.push_back(ports.scene->scene->lights[lights[i].light].name);
   }
+  out.beyond = static_cast<int>(beyond.size());
   warnOf(beyond, params.layers);
   std::vector<int> values = out.ofLight;
   values.resize(std::max<std::size_t>(values.size(), 1), kNoLayer);  // none cannot be bound

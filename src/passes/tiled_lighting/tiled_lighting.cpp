@@ -113,7 +113,10 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Ports& po
   if (ports.ambientVisibility) desc.defines["AMBIENT_VISIBILITY"] = "1";
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
-  if (hasLayers(ports)) desc.defines["LAYERED_SHADOWS"] = "1";
+  if (hasLayers(ports))
+    desc.defines["LAYERED_SHADOWS"] =
+        std::to_string(render::arrayLayersOf(ports.layeredShadows->layers));
+  if (hasLayers(ports) && ports.shadowLayers->beyond == 0) desc.defines["ALL_IN_LAYERS"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
   if (!program) program = device_.program(desc);
   return *program;

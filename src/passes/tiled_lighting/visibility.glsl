@@ -1,5 +1,6 @@
 // What both shaders need for shadows: the surface, and the light that reaches it.
-//   LAYERED_SHADOWS  screen-space shadows of lights that have a layer
+//   LAYERED_SHADOWS  screen-space shadows of lights that have a layer; as many array layers
+//   ALL_IN_LAYERS    all that throw shadows have one: software rasterisers run both ways of an if
 #include "render/read_gbuffer.glsl"
 #include "render/plane_normal.glsl"
 #include "render/shading.glsl"
@@ -14,29 +15,31 @@ vec3 planeNormalW;
 uniform usampler2D shadowMask;
 uniform usampler2DArray layeredShadows;  // at half the size, four layers in each array layer
 
-// Of the four texels around the pixel, those on its surface, weighted by how near they are.
-ivec2 texels[4];
-vec4 texelWeights;
+// Share of its light that each layer lets through to the pixel.
+float layerShares[4 * LAYERED_SHADOWS];
 
-void findTexels(ivec2 pixel, vec3 positionW) {
-  ivec2 last = textureSize(layeredShadows, 0).xy - 1;
+// From the four texels around the pixel, those on its surface, weighted by how near they are; if there is none, the
+// mask's bit.
+void readLayers(ivec2 pixel, vec3 positionW) {
+  ivec2 last = textureSize(layeredShadows, 0).xy - 1, texels[4];
   vec2 odd = 0.5 * vec2(pixel & 1);
-  vec4 nearness = vec4((1.0 - odd.x) * (1.0 - odd.y), odd.x * (1.0 - odd.y), (1.0 - odd.x) * odd.y, odd.x * odd.y);
+  vec4 weights = vec4((1.0 - odd.x) * (1.0 - odd.y), odd.x * (1.0 - odd.y), (1.0 - odd.x) * odd.y, odd.x * odd.y);
   for (int i = 0; i < 4; ++i) {
     texels[i] = min(pixel / 2 + ivec2(i & 1, i >> 1), last);
     vec3 away = positionWOf(2 * texels[i]) - positionW;
     bool same = !isEmpty(2 * texels[i]) && abs(dot(away, planeNormalW)) <= 0.3 * length(away) + 1e-6;
-    texelWeights[i] = same ? nearness[i] : 0.0;
+    if (!same) weights[i] = 0.0;
   }
-}
-
-float layerVisibility(ivec2 pixel, int layer) {
-  float weights = dot(texelWeights, vec4(1.0));
-  if (weights == 0.0) return (texelFetch(shadowMask, pixel, 0).r >> uint(layer) & 1u) == 0u ? 1.0 : 0.0;
-  vec4 found;
-  for (int i = 0; i < 4; ++i)
-    found[i] = float(texelFetch(layeredShadows, ivec3(texels[i], layer / 4), 0).r >> uint(8 * (layer % 4)) & 255u);
-  return dot(found, texelWeights) / (255.0 * weights);
+  float sum = dot(weights, vec4(1.0));
+  uint mask = texelFetch(shadowMask, pixel, 0).r;
+  for (int a = 0; a < LAYERED_SHADOWS; ++a) {
+    uvec4 found;
+    for (int i = 0; i < 4; ++i) found[i] = texelFetch(layeredShadows, ivec3(texels[i], a), 0).r;
+    for (int b = 0; b < 4; ++b) {
+      float lit = dot(vec4(found >> uint(8 * b) & 255u), weights) / (255.0 * max(sum, 1e-6));
+      layerShares[4 * a + b] = sum > 0.0 ? lit : float(~mask >> uint(4 * a + b) & 1u);
+    }
+  }
 }
 #endif
 
@@ -44,14 +47,19 @@ Surface shadowedSurface(ivec2 pixel) {
   Surface s = readSurface(pixel);
   planeNormalW = planeNormalOf(pixel, s.positionW, s.normalW);
 #ifdef LAYERED_SHADOWS
-  findTexels(pixel, s.positionW);
+  readLayers(pixel, s.positionW);
 #endif
   return s;
 }
 
 float lightVisibility(Surface s, uint light) {
 #ifdef LAYERED_SHADOWS
-  if (lightLayers[light] >= 0) return layerVisibility(ivec2(gl_FragCoord.xy), lightLayers[light]);
+  int layer = lightLayers[light];
+#ifdef ALL_IN_LAYERS
+  return layer >= 0 ? layerShares[layer] : 1.0;
+#else
+  if (layer >= 0) return layerShares[layer];
+#endif
 #endif
   LightValues values = lights[light];
   vec3 toLightW = normalize(values.position.xyz - s.positionW * values.position.w);
