@@ -76,7 +76,9 @@ std::vector<float> widthsOf(const scene::Scene& scene) {
   ports.depth.bind(&depth);
   ports.normal.bind(&normal);
   ports.penumbrae.bind(&penumbrae);
-  passes::Penumbra(testing::device()).execute(context, {.search = 11}, ports);
+  passes::Penumbra::Params params;
+  params.search = 11;
+  passes::Penumbra(testing::device()).execute(context, params, ports);
   EXPECT_EQ(penumbrae.layers, 1);
   const Image image =
       converted(testing::device().download(penumbrae.widths), ComponentType::F32, 4);

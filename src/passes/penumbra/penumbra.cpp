@@ -9,25 +9,7 @@ void Penumbra::describe(graph::PassInfo<Params, Ports>& d) {
   d.param("search", &Params::search)
       .range(3, 47)
       .help("Depths along each side of a light's map that are searched for blockers, odd.");
-  d.param("bias", &Params::bias)
-      .range(0, 100)
-      .unit("m")
-      .help("How far a point is moved towards the light before it is compared.");
-  d.param("normalBias", &Params::normalBias)
-      .range(0, 16)
-      .help("How far a point is moved off its surface before it is compared: see TiledLighting.");
-  d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
-  d.read("lights", &Ports::lights).help("Lights that are on.");
-  d.read("tileLights", &Ports::tileLights)
-      .optional()
-      .help("Which lights may reach a pixel; without it each pixel tries them all.");
-  d.read("shadowMaps", &Ports::shadowMaps).optional().help("What each light sees.");
-  d.read("shadowLayers", &Ports::shadowLayers).optional().help("The layer of each light.");
-  d.read("depth", &Ports::depth).texture(Format::Depth32F).halo(1).help("Reversed depth.");
-  d.read("normal", &Ports::normal)
-      .texture(Format::Rg16Unorm)
-      .sameSizeAs("depth")
-      .help("View-space normal, octahedral.");
+  describeLayerLookup(d);
   d.write("penumbrae", &Ports::penumbrae)
       .help("Widths in m at half the size; of no layers without maps or layers.");
 }
@@ -44,24 +26,15 @@ const gpu::Program& Penumbra::programOf(const Ports& ports, int arrayLayers) {
 
 void Penumbra::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   render::Penumbrae& out = *ports.penumbrae;
-  out.layers = ports.shadowMaps && ports.shadowLayers ? ports.shadowLayers->count : 0;
+  out.layers = ports.layers();
   render::fitLayers(context.device, out.widths, Format::Rgba16Float, *ports.depth, out.layers,
                     "penumbrae");
   if (out.layers == 0) return;
   gpu::Rendering rendering = context.device.render(render::targetsOf(out.widths));
   const gpu::Program& program = programOf(ports, render::arrayLayersOf(out.layers));
   rendering.use(program, {.cull = gpu::Cull::None});
-  rendering.buffer("ViewBlock", ports.view->block);
-  rendering.buffer("LightBlock", ports.lights->block);
-  if (ports.tileLights) rendering.buffer("TileLightBlock", ports.tileLights->block);
-  rendering.buffer("ShadowLayerBlock", ports.shadowLayers->block);
-  render::bindShadowMaps(rendering, *ports.shadowMaps, false);
-  rendering.texture("depth", *ports.depth, gpu::kNearest);
-  rendering.texture("normal", *ports.normal, gpu::kNearest);
-  program.set("shadowReach", 0.5f);
+  bindLayerLookup(rendering, program, params, ports);
   program.set("shadowSearchRadius", params.search / 2);
-  program.set("shadowBias", params.bias);
-  program.set("shadowNormalBias", params.normalBias);
   rendering.fullscreen();
 }
 

@@ -3,30 +3,17 @@
 
 #include <map>
 
-#include "graph/pass_info.hpp"
+#include "render/layer_lookup.hpp"
 #include "render/layered_shadows.hpp"
-#include "render/light_list.hpp"
-#include "render/shadow_layers.hpp"
-#include "render/shadow_maps.hpp"
-#include "render/tile_lights.hpp"
-#include "render/view_data.hpp"
 
 namespace lucerna::passes {
 
 class Penumbra {
  public:
-  struct Params {
-    int search = 5;    // depths along each side, odd
-    float bias = 0.f;  // m
-    float normalBias = 1.f;
+  struct Params : render::LayerLookupParams {
+    int search = 5;  // depths along each side, odd
   };
-  struct Ports {
-    graph::In<render::ViewData> view;
-    graph::In<render::LightList> lights;
-    graph::In<render::TileLights> tileLights;
-    graph::In<render::ShadowMaps> shadowMaps;
-    graph::In<render::ShadowLayers> shadowLayers;
-    graph::In<gpu::Texture> depth, normal;
+  struct Ports : render::LayerLookupPorts {
     graph::Out<render::Penumbrae> penumbrae;
   };
 

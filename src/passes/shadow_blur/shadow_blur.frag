@@ -7,12 +7,7 @@
 #ifndef ARRAY_LAYERS
 #define ARRAY_LAYERS 1
 #endif
-#include "render/normal_encoding.glsl"
-#include "render/view.glsl"
-
-uniform sampler2D depth;
-uniform sampler2D normal;
-#include "render/plane_normal.glsl"
+#include "render/surface_pixel.glsl"
 
 uniform sampler2DArray penumbrae;  // m
 #ifdef OF_MASK
@@ -78,10 +73,8 @@ void main() {
     for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = 0xffffffffu;
     return;
   }
-  vec3 positionW = positionWOf(pixel);
-  vec3 normalW = mat3(view.worldFromView) * decodeNormal(texelFetch(normal, pixel, 0).rg);
-  vec3 planeW = planeNormalOf(pixel, positionW, normalW);
-  vec2 axis = axisOf(positionW, planeW);
+  SurfacePixel s = surfaceAt(pixel);
+  vec2 axis = axisOf(s.positionW, s.planeNormalW);
 
   // Taps spread over the widest of the pixel's penumbrae.
   float exponents[kLayers], sums[kLayers], weights[kLayers];
@@ -99,8 +92,8 @@ void main() {
   int end = widest == 0.0 ? 0 : taps;
   for (int i = -end; i <= end; ++i) {
     ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);
-    vec3 away = positionWOf(2 * tap) - positionW;
-    bool same = i == 0 || (!isEmpty(2 * tap) && abs(dot(away, planeW)) <= edgeSlope * length(away));
+    vec3 away = positionWOf(2 * tap) - s.positionW;
+    bool same = i == 0 || (!isEmpty(2 * tap) && abs(dot(away, s.planeNormalW)) <= edgeSlope * length(away));
     float metres = float(i) * apart / length1;
 #ifdef OF_MASK
     vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(textureSize(shadowMask, 0));

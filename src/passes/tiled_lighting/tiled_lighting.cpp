@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "render/layer_lookup.hpp"
+
 namespace lucerna::passes {
 
 using gpu::Format;
@@ -29,15 +31,7 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
   d.param("comparison", &Params::comparison)
       .choices({"nearest", "filtered"})
       .help("nearest: with one depth; filtered: the hardware's mean of the four around the point.");
-  d.param("bias", &Params::bias)
-      .range(0, 100)
-      .unit("m")
-      .help("How far a point is moved towards the light before it is compared.");
-  d.param("normalBias", &Params::normalBias)
-      .range(0, 16)
-      .help(
-          "How far a point is moved off its surface before it is compared, as a factor on what "
-          "keeps a plane from shadowing itself: the filter's reach there times the slope.");
+  render::describeShadowBias(d, &Params::bias, &Params::normalBias);
 }
 
 // Null ports: `shadows` is not layered.
