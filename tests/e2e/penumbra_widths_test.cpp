@@ -19,10 +19,7 @@ constexpr float kLampX = -1.f;  // m; the half-plane's edge is at 0, half way to
 scene::Scene halfPlane(float radius) {
   scene::Scene scene = testing::emptyScene();
   testing::addWall(scene, kWall);
-  scene.meshes.push_back(testing::cubeMesh());
-  const mat4 place = glm::translate(mat4(1.f), vec3(-20, 0, -0.5f * kWall));
-  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
-                     glm::scale(place, vec3(40, 40, 1e-3f)));
+  testing::addBox(scene, {-20, 0, -0.5f * kWall}, {40, 40, 1e-3f});
   scene::Light light;
   light.kind = scene::LightKind::Spot;
   light.intensity = 100.f;

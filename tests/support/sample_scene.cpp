@@ -119,6 +119,12 @@ void addObject(scene::Scene& scene, std::uint32_t mesh, std::uint32_t material,
   scene.objects.push_back({.node = node, .mesh = mesh, .material = material, .boundsW = {}});
 }
 
+void addBox(scene::Scene& scene, vec3 middle, vec3 sides, std::uint32_t material) {
+  scene.meshes.push_back(cubeMesh());
+  addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), material,
+            glm::scale(glm::translate(mat4(1.f), middle), sides));
+}
+
 void addCamera(scene::Scene& scene, vec3 eye, vec3 target, float fovY) {
   scene::Camera camera;
   camera.name = "camera";

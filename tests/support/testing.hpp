@@ -96,6 +96,8 @@ scene::Mesh cubeMesh();
 // Adds an object with the mesh and material given by index.
 void addObject(scene::Scene& scene, std::uint32_t mesh, std::uint32_t material,
                const mat4& worldFromObject);
+// Adds a box with its middle there, of that material; updateTransforms() is up to the caller.
+void addBox(scene::Scene& scene, vec3 middle, vec3 sides, std::uint32_t material = 0);
 // Adds a camera at `eye` that looks at `target`.
 void addCamera(scene::Scene& scene, vec3 eye, vec3 target, float fovY = 0.9f);
 

@@ -14,9 +14,7 @@ constexpr uvec2 kSize{96, 64};
 scene::Scene cubeScene(float radius) {
   scene::Scene scene = testing::emptyScene();
   testing::addWall(scene, 6.f);
-  scene.meshes.push_back(testing::cubeMesh());
-  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
-                     glm::scale(glm::translate(mat4(1.f), vec3(0, 0, -4)), vec3(0.8f)));
+  testing::addBox(scene, {0, 0, -4}, vec3(0.8f));
   scene::Light light;
   light.kind = scene::LightKind::Spot;
   light.intensity = 50.f;

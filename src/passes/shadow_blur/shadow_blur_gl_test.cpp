@@ -20,12 +20,6 @@ void addLamp(scene::Scene& scene, vec3 eye, vec3 target) {
   testing::addLight(scene, light, eye, target);
 }
 
-void addCube(scene::Scene& scene, vec3 center, vec3 sides) {
-  scene.meshes.push_back(testing::cubeMesh());
-  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
-                     glm::scale(glm::translate(mat4(1.f), center), sides));
-}
-
 // A spot lamp, a disc, beside the camera throws the shadow of a half-plane onto a wall. Of how much
 // of the disc one sees where is known; t: place in the penumbra, -1 to 1.
 double visibleShareOfDisc(double t) {
@@ -64,7 +58,7 @@ TEST_P(SoftShadows, ArePenumbraeOfTheRightWidth) {
     SCOPED_TRACE(radius);
     scene::Scene scene = testing::emptyScene();
     testing::addWall(scene, kWall);
-    addCube(scene, {kEdgeX - 20.f, 0, -kHalfWay}, {40, 40, 1e-3f});
+    testing::addBox(scene, {kEdgeX - 20.f, 0, -kHalfWay}, {40, 40, 1e-3f});
     addLamp(scene, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
     scene.lights.back().radius = radius;
     updateTransforms(scene);
@@ -100,7 +94,7 @@ TEST_P(SoftShadows, OfLampsTogetherAreThoseOfEachAlone) {
   constexpr int kLamps = 32;
   scene::Scene scene = testing::emptyScene();
   testing::addWall(scene, kWall);
-  addCube(scene, {0, 0, -4}, vec3(0.7f));
+  testing::addBox(scene, {0, 0, -4}, vec3(0.7f));
   for (int i = 0; i < kLamps; ++i) {
     const float turn = 2.f * kPi * static_cast<float>(i) / kLamps;
     addLamp(scene, {1.5f * std::cos(turn), std::sin(turn), -1.f}, {0, 0, -kWall});
@@ -137,7 +131,7 @@ TEST(LayersOfTiles, AreSharedByLampsThatAreApart) {
     scene::Scene scene = testing::emptyScene();
     testing::addWall(scene, kWall);
     for (const float x : {-side, side}) {
-      addCube(scene, {x, 0, -5}, vec3(0.3f));
+      testing::addBox(scene, {x, 0, -5}, vec3(0.3f));
       addLamp(scene, {x, 0.2f, -3}, {x, 0, -kWall});
       scene.lights.back().outerCone = 0.3f;
       scene.lights.back().innerCone = 0.25f;

@@ -20,9 +20,7 @@ scene::Scene wallScene() {
 }
 
 void addCube(scene::Scene& scene, vec3 center) {
-  scene.meshes.push_back(testing::cubeMesh());
-  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
-                     glm::scale(glm::translate(mat4(1.f), center), vec3(0.5f)));
+  testing::addBox(scene, center, vec3(0.5f));
 }
 
 void addLamp(scene::Scene& scene, scene::LightKind kind, vec3 eye, vec3 target) {

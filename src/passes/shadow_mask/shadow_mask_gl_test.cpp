@@ -14,9 +14,7 @@ constexpr uvec2 kSize{80, 60};
 scene::Scene lampScene(int lamps) {
   scene::Scene scene = testing::emptyScene();
   testing::addWall(scene, 6.f);
-  scene.meshes.push_back(testing::cubeMesh());
-  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), 0,
-                     glm::scale(glm::translate(mat4(1.f), vec3(0, 0, -4.5f)), vec3(0.6f)));
+  testing::addBox(scene, {0, 0, -4.5f}, vec3(0.6f));
   for (int i = 0; i < lamps; ++i) {
     scene::Light light;
     light.kind = i % 2 == 0 ? scene::LightKind::Spot : scene::LightKind::Point;

@@ -75,9 +75,7 @@ void addLamp(scene::Scene& scene, scene::LightKind kind, vec3 eye, vec3 target) 
 
 // A cube of the given side.
 void addCube(scene::Scene& scene, vec3 center, float side, std::uint32_t material = 0) {
-  scene.meshes.push_back(testing::cubeMesh());
-  testing::addObject(scene, static_cast<std::uint32_t>(scene.meshes.size() - 1), material,
-                     glm::scale(glm::translate(mat4(1.f), center), vec3(side)));
+  testing::addBox(scene, center, vec3(side), material);
 }
 
 // A normal map that leans by 40 degrees everywhere.
