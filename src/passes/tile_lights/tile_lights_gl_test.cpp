@@ -112,7 +112,8 @@ TEST_F(TileLights, HoldFewLightsThatDoNotReachThem) {
     scene::Light light;
     light.kind = scene::LightKind::Point;
     light.range = 0.3f;
-    const vec3 at(0.4f * static_cast<float>(i % 10) - 2.f, 0.3f * static_cast<float>(i / 10) - 1.5f,
+    const int column = i % 10, row = i / 10;
+    const vec3 at(0.4f * static_cast<float>(column) - 2.f, 0.3f * static_cast<float>(row) - 1.5f,
                   -3.9f);
     testing::addLight(scene, light, at, at - vec3(0, 0, 1));
   }
