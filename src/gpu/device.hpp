@@ -158,6 +158,7 @@ class Device {
   void upload(const Texture& texture, const Image& image, int layer = 0);
   void generateMipmaps(const Texture& texture);
   void clear(const Texture& texture, vec4 value);  // all of level 0; linear, also in sRGB formats
+  void clearDepth(const Texture& texture, float depth, int layer, Rect rect);  // of format Depth32F
   // Whole level 0 of one layer. Rows bottom first as GL stores targets unless flip: flip for what
   // was rendered, not for what was uploaded. Depth and packed floats give F32; 32-bit integers
   // their bits in F32 (read them as<std::uint32_t>()). sRGB formats give the stored, encoded bytes.

@@ -173,6 +173,13 @@ void Device::clear(const Texture& texture, vec4 value) {
   }
 }
 
+void Device::clearDepth(const Texture& texture, float depth, int layer, Rect rect) {
+  checkLayer(texture, layer);
+  CHECK(texture.format() == Format::Depth32F, "clearDepth() of texture '{}'", texture.label());
+  glClearTexSubImage(texture.id(), 0, rect.x, rect.y, layer, rect.width, rect.height, 1,
+                     GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+}
+
 Image Device::download(const Texture& texture, int layer, bool flip) {
   checkLayer(texture, layer);
   CHECK(texture.desc().samples == 1, "texture '{}' is multisampled: resolve it first",

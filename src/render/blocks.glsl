@@ -69,10 +69,11 @@ struct LightValues {
 // Element of the storage block ShadowMapBlock (render/shadows.glsl).
 struct ShadowMapValues {
   mat4 clipFromWorld;
-  vec4 texel;          // xy: m of a texel at clip-space w of 1; z: 1 / texels of a side; w: shear
+  vec4 texel;          // xy: m of a texel at clip-space w of 1; z: 1 / texels of the map's side; w: shear
   vec4 axisW;          // xyz: unit, towards the light along the map's depth; w: depth's range in m, 0: lamps
   vec4 depthPlaneW;    // of directional lights: the depth that the map holds
   vec4 inner;          // x: part of the map, from its middle, that it is made for; of lamps yz: a map's depth d
                        // is at y / (d + z) m along its axis
+  vec4 square;         // in its layer, in parts of the layer's side: xy: lower left corner; z: side
   uvec4 place;         // layer; 1: of the lamps' texture
 };

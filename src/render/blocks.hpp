@@ -21,7 +21,8 @@ static_assert(offsetof(MaterialValues, albedoUse) == 80);
 static_assert(offsetof(MaterialValues, albedoGeneration) == 304);
 static_assert(sizeof(ObjectValues) == 64 + 4 * 16);
 static_assert(sizeof(LightValues) == 5 * 16);
-static_assert(sizeof(ShadowMapValues) == 64 + 5 * 16);
+static_assert(sizeof(ShadowMapValues) == 64 + 6 * 16);
+static_assert(offsetof(ShadowMapValues, square) == 64 + 4 * 16);
 
 // The fixed part of LightBlock, before its LightValues.
 struct LightHeader {

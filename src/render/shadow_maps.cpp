@@ -6,20 +6,22 @@
 
 namespace lucerna::render {
 
+bool ShadowMaps::Place::overlaps(const Place& other) const {
+  return local == other.local && layer == other.layer &&
+         glm::all(glm::lessThan(corner, other.corner + other.side)) &&
+         glm::all(glm::lessThan(other.corner, corner + side));
+}
+
 namespace {
 
-// Large enough for the layers that maps name; what is there already stays.
 void fit(gpu::Device& device, ShadowMaps& shadowMaps, bool local, const ShadowMapSize& size) {
   gpu::Texture& texture = local ? shadowMaps.local : shadowMaps.directional;
-  int side = size.side, layers = 0;
-  for (const ShadowMaps::Map& map : shadowMaps.maps)
-    if (map.local == local) layers = std::max(layers, map.layer + 1);
-  if (layers == 0 && texture) return;
-  if (layers == 0) side = layers = 1;
-  if (texture && texture.width() == side && texture.desc().layers >= layers) return;
+  if (size.layers == 0 && texture) return;
+  const int side = size.layers > 0 ? size.side : 1, layers = std::max(size.layers, 1);
+  if (texture && texture.width() == side && texture.desc().layers == layers) return;
   texture = {};  // before the new one is made
-  (local ? shadowMaps.drawnLocal : shadowMaps.drawnDirectional)
-      .assign(static_cast<std::size_t>(layers), {});
+  std::erase_if(shadowMaps.drawn,
+                [&](const ShadowMaps::Drawn& drawn) { return drawn.place.local == local; });
   texture =
       device.createTexture({.kind = gpu::TextureKind::Array2D,
                             .format = gpu::Format::Depth32F,
@@ -37,8 +39,10 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
   fit(device, shadowMaps, true, local);
   std::vector<blocks::ShadowMapValues> maps;
   for (const ShadowMaps::Map& map : shadowMaps.maps) {
-    const gpu::Texture& texture = map.local ? shadowMaps.local : shadowMaps.directional;
-    const float texel = 1.f / static_cast<float>(texture.width());
+    const ShadowMaps::Place& place = map.place;
+    const gpu::Texture& texture = place.local ? shadowMaps.local : shadowMaps.directional;
+    const float texel = 1.f / static_cast<float>(place.side);
+    const float ofLayer = 1.f / static_cast<float>(texture.width());
     maps.push_back({.clipFromWorld = map.projection.clipFromWorld(),
                     .texel = vec4(map.projection.side * texel, texel, map.projection.shear),
                     .axisW = vec4(vec3(glm::transpose(map.projection.viewFromWorld)[2]),
@@ -46,7 +50,8 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
                     .depthPlaneW = map.projection.depthPlaneW,
                     .inner = vec4(map.projection.inner, map.projection.clipFromView[3][2],
                                   map.projection.clipFromView[2][2], 0.f),
-                    .place = uvec4(map.layer, map.local ? 1 : 0, 0, 0)});
+                    .square = vec4(vec2(place.corner), place.side, 0.f) * ofLayer,
+                    .place = uvec4(place.layer, place.local ? 1 : 0, 0, 0)});
   }
   std::vector<uvec4> lights;
   for (const ShadowMaps::Range& range : shadowMaps.ofLight)

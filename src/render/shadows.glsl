@@ -86,9 +86,16 @@ vec2 depthSlope(ShadowMapValues map, vec3 uvDepth, vec3 positionW, vec3 normalW,
   return area == 0.0 ? vec2(0.0) : slope / area;
 }
 
+// Where the lamps' texture holds a place of a map. Beyond the map's edge all is as at the edge, for another map is
+// there; directional maps fill their layers, and beyond them all is lit.
+vec3 inLayers(ShadowMapValues map, vec2 uv) {
+  float edge = 0.5 * map.texel.z;
+  return vec3(map.square.xy + map.square.z * clamp(uv, edge, 1.0 - edge), float(map.place.x));
+}
+
 float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
-  vec4 at = vec4(uvDepth.xy, float(map.place.x), uvDepth.z);
-  return isDirectional(map) ? texture(directionalShadowMaps, at) : texture(localShadowMaps, at);
+  return isDirectional(map) ? texture(directionalShadowMaps, vec4(uvDepth.xy, float(map.place.x), uvDepth.z))
+                            : texture(localShadowMaps, vec4(inLayers(map, uvDepth.xy), uvDepth.z));
 }
 
 // Depth that a point is compared with beside its own place: its own, or that of its plane where that is nearer to the
@@ -114,8 +121,8 @@ float distanceOf(ShadowMapValues map, float depth) {
 }
 
 float storedDepth(ShadowMapValues map, vec2 uv) {
-  vec3 at = vec3(uv, float(map.place.x));
-  return isDirectional(map) ? texture(directionalShadowDepths, at).r : texture(localShadowDepths, at).r;
+  return isDirectional(map) ? texture(directionalShadowDepths, vec3(uv, float(map.place.x))).r
+                            : texture(localShadowDepths, inLayers(map, uv)).r;
 }
 
 // Of what is nearer to the light around a point.

@@ -30,12 +30,21 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
           "as the nearest, and the square of that as long.");
   d.param("cascades", &Params::cascades).range(1, 8).help("Maps of a directional light.");
   d.param("localSize", &Params::localSize)
-      .range(16, 8192)
+      .range(kLeastSide, 8192)
       .unit("px")
-      .help("Side of a spot light's map, and of each of the six of a point light.");
+      .help(
+          "Side of a spot light's map, and of each of the six of a point light, where its reach "
+          "fills the picture's shorter side; half of it where that fills half, down to an "
+          "eighth.");
   d.param("localLights", &Params::localLights)
       .range(0, 256)
       .help("Most spot and point lights that throw shadows: those that light the view most.");
+  d.param("localMemory", &Params::localMemory)
+      .range(1, 2048)
+      .unit("MiB")
+      .help(
+          "Most memory for their maps: 384 MiB hold the six of 64 point lights at 512 texels. "
+          "Where more is wanted, maps of those that light the view least are smaller.");
   d.param("redraw", &Params::redraw)
       .choices({"changed", "always"})
       .help(
@@ -58,12 +67,13 @@ const gpu::Program& ShadowMaps::programOf(const render::ShadowProjection& projec
 void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
                       Drawing& drawing) {
   const render::GpuScene& gpuScene = *ports.scene;
-  const gpu::Texture& texture = map.local ? ports.shadowMaps->local : ports.shadowMaps->directional;
+  const gpu::Texture& texture =
+      map.place.local ? ports.shadowMaps->local : ports.shadowMaps->directional;
   const scene::View view{.viewFromWorld = map.projection.viewFromWorld,
                          .clipFromView = map.projection.clipFromView,
                          .worldFromView = glm::inverse(map.projection.viewFromWorld),
-                         .orthographic = !map.local};
-  render::updateView(device, drawing.view, view, uvec2(texture.width(), texture.height()));
+                         .orthographic = !map.place.local};
+  render::updateView(device, drawing.view, view, uvec2(map.place.side));
 
   std::vector<std::uint32_t>& casters = drawing.list.objects;
   casters.clear();
@@ -76,8 +86,12 @@ void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::Sha
   render::sortForState(gpuScene, casters);
   finishList(device, gpuScene, drawing.list);
 
+  const auto [local, layer, corner, side] = map.place;
+  const gpu::Rect square{corner.x, corner.y, side, side};
+  device.clearDepth(texture, 0.f, layer, square);
   gpu::Rendering rendering = device.render(
-      {.colors = {}, .depth = {.texture = &texture, .load = gpu::Load::Clear, .layer = map.layer}});
+      {.colors = {}, .depth = {.texture = &texture, .layer = layer}, .viewport = square});
+  rendering.setScissor(square);
   rendering.buffer("ViewBlock", drawing.view.block);
   // Back faces throw shadows, too: a wall is no less opaque from behind.
   drawList(rendering, gpuScene, drawing.list,
@@ -85,35 +99,38 @@ void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::Sha
            [&](const scene::Material& material) { return &programOf(map.projection, material); });
 }
 
-void ShadowMaps::warnOfLamps(int leftOut, int allowed) {
+void ShadowMaps::warnOfLamps(int withMaps, int leftOut, const char* remedy) {
   if (leftOut > mostLeftOut_)
-    log::warning(
-        "ShadowMaps: beside {} lamps, {} in sight throw no shadow; localLights allows more",
-        allowed, leftOut);
+    log::warning("ShadowMaps: beside {} lamps, {} in sight throw no shadow; {} allows more",
+                 withMaps, leftOut, remedy);
   mostLeftOut_ = std::max(mostLeftOut_, leftOut);
 }
 
 void ShadowMaps::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   ShadowMapPlan plan =
-      planShadowMaps(params, ports.lights->lights, ports.views->views, ports.scene->bvh);
-  warnOfLamps(plan.lampsLeftOut, params.localLights);
+      planShadowMaps(params, ports.lights->lights, ports.views->views, ports.scene->bvh, lamps_);
+  warnOfLamps(plan.lampsWithMaps, plan.lampsOverCount + plan.lampsOverMemory,
+              plan.lampsOverMemory > 0 ? "localMemory" : "localLights");
+  plan.directional.remedy = params.method == Method::Cascades
+                                ? "set size or cascades of ShadowMaps lower"
+                                : "set size of ShadowMaps lower";
+  plan.local.remedy = "set localMemory of ShadowMaps lower";
   render::ShadowMaps& out = *ports.shadowMaps;
   out.maps = std::move(plan.maps);
   out.ofLight = std::move(plan.ofLight);
-  prepareShadowMaps(
-      context.device, out,
-      {params.size, params.method == Method::Cascades ? "set size or cascades of ShadowMaps lower"
-                                                      : "set size of ShadowMaps lower"},
-      {params.localSize, "set localSize or localLights of ShadowMaps lower"});
+  prepareShadowMaps(context.device, out, plan.directional, plan.local);
   drawings_.resize(std::max(drawings_.size(), out.maps.size()));
   for (std::size_t i = 0; i < out.maps.size(); ++i) {
     const render::ShadowMaps::Map& map = out.maps[i];
-    render::ShadowMaps::Drawn& drawn =
-        (map.local ? out.drawnLocal : out.drawnDirectional)[static_cast<std::size_t>(map.layer)];
-    const render::ShadowMaps::Drawn wanted{map.projection, ports.scene->geometryRevision};
-    if (params.redraw == Redraw::Changed && drawn == wanted) continue;
+    const render::ShadowMaps::Drawn wanted{map.place, map.projection,
+                                           ports.scene->geometryRevision};
+    if (params.redraw == Redraw::Changed && std::ranges::find(out.drawn, wanted) != out.drawn.end())
+      continue;
     draw(context.device, ports, map, drawings_[i]);
-    drawn = wanted;
+    std::erase_if(out.drawn, [&](const render::ShadowMaps::Drawn& drawn) {
+      return drawn.place.overlaps(map.place);
+    });
+    out.drawn.push_back(wanted);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "graph/pass_info.hpp"
+#include "passes/shadow_maps/lamp_sizes.hpp"
+#include "passes/shadow_maps/shadow_atlas.hpp"
 #include "render/draw_list.hpp"
 #include "render/light_list.hpp"
 #include "render/object_programs.hpp"
@@ -13,11 +15,18 @@
 
 namespace lucerna::passes {
 
+// Of lamps, what a frame's plan hands on to the next.
+struct LampMaps {
+  LampSizes sizes;
+  ShadowAtlas atlas;
+};
+
 class ShadowMaps {
  public:
   enum class Method { Lispsm, Uniform, Cascades };
   enum class Warp { Automatic, Set };
   enum class Redraw { Changed, Always };
+  static constexpr int kLeastSide = 16;  // texels
   struct Params {
     Method method = Method::Lispsm;
     int size = 2048;  // texels
@@ -26,6 +35,7 @@ class ShadowMaps {
     int cascades = 4;
     int localSize = 512;  // texels
     int localLights = 64;
+    int localMemory = 512;  // MiB
     Redraw redraw = Redraw::Changed;
   };
   struct Ports {
@@ -48,7 +58,7 @@ class ShadowMaps {
     render::DrawList list;
   };
 
-  void warnOfLamps(int leftOut, int allowed);
+  void warnOfLamps(int withMaps, int leftOut, const char* remedy);
   void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
             Drawing& drawing);
 
@@ -56,6 +66,7 @@ class ShadowMaps {
                                 const scene::Material& material);
 
   render::ObjectPrograms programs_, warpedPrograms_;
+  LampMaps lamps_;
   std::vector<Drawing> drawings_;  // kept for their buffers
   int mostLeftOut_ = 0;            // lamps without a map, so far
 };
