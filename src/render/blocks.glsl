@@ -15,6 +15,13 @@ struct ViewValues {
   vec4 clipPlaneW;     // gl_ClipDistance[0] of (p, 1), in m; (0, 0, 0, 1): nothing is cut
 };
 
+// Element of the storage block ShadowViewBlock (render/view.glsl).
+struct ShadowViewValues {
+  ViewValues eye;
+  vec4 depthPlaneW;    // of directional lights: the depth that the map holds
+  uvec4 place;         // layer, index of the viewport
+};
+
 // How one material slot reads its texture.
 struct TextureUse {
   vec4 matrix;         // columns of the 2x2 matrix on uv

@@ -15,6 +15,7 @@ using glm::vec4;
 
 static_assert(sizeof(ViewValues) == 4 * 64 + 5 * 16);
 static_assert(offsetof(ViewValues, eyeW) == 256);
+static_assert(sizeof(ShadowViewValues) == 4 * 64 + 7 * 16);
 static_assert(sizeof(TextureUse) == 32);
 static_assert(sizeof(MaterialValues) == 512);
 static_assert(offsetof(MaterialValues, albedoUse) == 80);

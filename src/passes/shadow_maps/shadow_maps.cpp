@@ -56,49 +56,6 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
   d.write("shadowMaps", &Ports::shadowMaps).help("Maps, and which light they belong to.");
 }
 
-const gpu::Program& ShadowMaps::programOf(const render::ShadowProjection& projection,
-                                          const scene::Material& material) {
-  if (!projection.warped) return programs_.of(material);
-  const gpu::Program& program = warpedPrograms_.of(material);
-  program.set("depthPlaneW", projection.depthPlaneW);
-  return program;
-}
-
-void ShadowMaps::draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
-                      Drawing& drawing) {
-  const render::GpuScene& gpuScene = *ports.scene;
-  const gpu::Texture& texture =
-      map.place.local ? ports.shadowMaps->local : ports.shadowMaps->directional;
-  const scene::View view{.viewFromWorld = map.projection.viewFromWorld,
-                         .clipFromView = map.projection.clipFromView,
-                         .worldFromView = glm::inverse(map.projection.viewFromWorld),
-                         .orthographic = !map.place.local};
-  render::updateView(device, drawing.view, view, uvec2(map.place.side));
-
-  std::vector<std::uint32_t>& casters = drawing.list.objects;
-  casters.clear();
-  gpuScene.bvh.query(view.frustumW(), casters);
-  std::erase_if(casters, [&](std::uint32_t index) {
-    const scene::Object& object = gpuScene.scene->objects[index];
-    return gpuScene.scene->materials[object.material].alphaMode == scene::AlphaMode::Blend ||
-           gpuScene.meshes[object.mesh].topology != gpu::Topology::Triangles;
-  });
-  render::sortForState(gpuScene, casters);
-  finishList(device, gpuScene, drawing.list);
-
-  const auto [local, layer, corner, side] = map.place;
-  const gpu::Rect square{corner.x, corner.y, side, side};
-  device.clearDepth(texture, 0.f, layer, square);
-  gpu::Rendering rendering = device.render(
-      {.colors = {}, .depth = {.texture = &texture, .layer = layer}, .viewport = square});
-  rendering.setScissor(square);
-  rendering.buffer("ViewBlock", drawing.view.block);
-  // Back faces throw shadows, too: a wall is no less opaque from behind.
-  drawList(rendering, gpuScene, drawing.list,
-           {.depthTest = true, .depthWrite = true, .cull = gpu::Cull::None},
-           [&](const scene::Material& material) { return &programOf(map.projection, material); });
-}
-
 void ShadowMaps::warnOfLamps(int withMaps, int leftOut, const char* remedy) {
   if (leftOut > mostLeftOut_)
     log::warning("ShadowMaps: beside {} lamps, {} in sight throw no shadow; {} allows more",
@@ -119,19 +76,20 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
   out.maps = std::move(plan.maps);
   out.ofLight = std::move(plan.ofLight);
   prepareShadowMaps(context.device, out, plan.directional, plan.local);
-  drawings_.resize(std::max(drawings_.size(), out.maps.size()));
-  for (std::size_t i = 0; i < out.maps.size(); ++i) {
-    const render::ShadowMaps::Map& map = out.maps[i];
+  std::vector<render::ShadowMaps::Map> directional, local;
+  for (const render::ShadowMaps::Map& map : out.maps) {
     const render::ShadowMaps::Drawn wanted{map.place, map.projection,
                                            ports.scene->geometryRevision};
     if (params.redraw == Redraw::Changed && std::ranges::find(out.drawn, wanted) != out.drawn.end())
       continue;
-    draw(context.device, ports, map, drawings_[i]);
+    (map.place.local ? local : directional).push_back(map);
     std::erase_if(out.drawn, [&](const render::ShadowMaps::Drawn& drawn) {
       return drawn.place.overlaps(map.place);
     });
     out.drawn.push_back(wanted);
   }
+  drawer_.draw(*ports.scene, out.directional, std::move(directional));
+  drawer_.draw(*ports.scene, out.local, std::move(local));
 }
 
 }  // namespace lucerna::passes

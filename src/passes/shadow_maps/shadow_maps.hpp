@@ -4,13 +4,11 @@
 #include <vector>
 
 #include "graph/pass_info.hpp"
+#include "passes/shadow_maps/draw_maps.hpp"
 #include "passes/shadow_maps/lamp_sizes.hpp"
 #include "passes/shadow_maps/shadow_atlas.hpp"
-#include "render/draw_list.hpp"
 #include "render/light_list.hpp"
-#include "render/object_programs.hpp"
 #include "render/shadow_maps.hpp"
-#include "render/view_data.hpp"
 #include "render/view_group.hpp"
 
 namespace lucerna::passes {
@@ -47,28 +45,15 @@ class ShadowMaps {
 
   static void describe(graph::PassInfo<Params, Ports>& d);
   explicit ShadowMaps(gpu::Device& device)
-      : programs_(device, "render/depth.frag"),
-        warpedPrograms_(device, "render/depth.frag", {{"LINEAR_DEPTH", "1"}}) {}
+      : drawer_(device, device.capabilities().features.contains(gpu::kFeatureLayeredVertex)) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  // What one map needs while it is drawn.
-  struct Drawing {
-    render::ViewData view;
-    render::DrawList list;
-  };
-
   void warnOfLamps(int withMaps, int leftOut, const char* remedy);
-  void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
-            Drawing& drawing);
 
-  const gpu::Program& programOf(const render::ShadowProjection& projection,
-                                const scene::Material& material);
-
-  render::ObjectPrograms programs_, warpedPrograms_;
+  MapDrawer drawer_;
   LampMaps lamps_;
-  std::vector<Drawing> drawings_;  // kept for their buffers
-  int mostLeftOut_ = 0;            // lamps without a map, so far
+  int mostLeftOut_ = 0;  // lamps without a map, so far
 };
 
 }  // namespace lucerna::passes
