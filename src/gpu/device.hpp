@@ -63,7 +63,6 @@ struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
   bool operator==(const Rect&) const = default;
 };
-inline constexpr std::size_t kMostViewports = 16;  // that OpenGL 4.5 promises
 struct Targets {
   std::vector<ColorTarget> colors{};
   DepthTarget depth{};
@@ -113,8 +112,6 @@ class Rendering : public Commands {
                  std::uint32_t count, std::uint64_t primitives);
   void fullscreen();  // one triangle over the viewport; vertex shader gpu/fullscreen.vert
   void setScissor(Rect rect);
-  // What gl_ViewportIndex chooses from, kMostViewports at most; nothing is drawn outside of them.
-  void setViewports(std::span<const Rect> rects);
 
  private:
   friend class Device;

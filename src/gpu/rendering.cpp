@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -240,21 +239,6 @@ Rendering::~Rendering() {
 void Rendering::setScissor(Rect rect) {
   glEnable(GL_SCISSOR_TEST);
   glScissor(rect.x, rect.y, rect.width, rect.height);
-}
-
-void Rendering::setViewports(std::span<const Rect> rects) {
-  CHECK(!rects.empty() && rects.size() <= kMostViewports, "{} viewports", rects.size());
-  std::array<GLfloat, 4 * kMostViewports> viewports{};
-  std::array<GLint, 4 * kMostViewports> scissors{};
-  for (std::size_t i = 0; i < rects.size(); ++i) {
-    const std::array sides{rects[i].x, rects[i].y, rects[i].width, rects[i].height};
-    std::ranges::copy(sides, scissors.begin() + static_cast<std::ptrdiff_t>(4 * i));
-    std::ranges::transform(sides, viewports.begin() + static_cast<std::ptrdiff_t>(4 * i),
-                           [](int side) { return static_cast<GLfloat>(side); });
-  }
-  glViewportArrayv(0, static_cast<GLsizei>(rects.size()), viewports.data());
-  glScissorArrayv(0, static_cast<GLsizei>(rects.size()), scissors.data());
-  glEnable(GL_SCISSOR_TEST);
 }
 
 void Rendering::draw(const VertexInput& input, std::uint32_t first, std::uint32_t count,

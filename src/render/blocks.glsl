@@ -19,7 +19,7 @@ struct ViewValues {
 struct ShadowViewValues {
   ViewValues eye;
   vec4 depthPlaneW;    // of directional lights: the depth that the map holds
-  uvec4 place;         // layer, index of the viewport
+  uvec4 place;         // layer
 };
 
 // How one material slot reads its texture.

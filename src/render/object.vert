@@ -2,7 +2,7 @@
 //   TEXTURE_ENVIRONMENT  for materials with generated coordinates (render/texture_environment.glsl)
 //   CUSTOM_SHADER        for materials with a shader of their own (render/custom_shader.glsl)
 //   SHADOW_VIEWS         instances say which view they are drawn in
-//   SHADOW_LAYERS        and that chooses layer and viewport
+//   SHADOW_LAYERS        and that chooses the layer
 // variant: TEXTURE_ENVIRONMENT=1
 // variant: SHADOW_VIEWS=1
 // variant: SHADOW_VIEWS=1 SHADOW_LAYERS=1
@@ -47,7 +47,6 @@ void main() {
 #endif
 #ifdef SHADOW_LAYERS
   gl_Layer = int(shadowViews[viewIndex].place.x);
-  gl_ViewportIndex = int(shadowViews[viewIndex].place.y);
 #endif
   mat3 normalMatrix =
       mat3(object.normalMatrix0.xyz, object.normalMatrix1.xyz, object.normalMatrix2.xyz);

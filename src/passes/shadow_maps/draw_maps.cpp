@@ -29,7 +29,7 @@ scene::View viewOf(const Map& map) {
           .orthographic = !map.place.local};
 }
 
-render::blocks::ShadowViewValues valuesOf(const Map& map, std::size_t viewport) {
+render::blocks::ShadowViewValues valuesOf(const Map& map) {
   const uvec2 size(map.place.side);
   const render::ViewData data{.view = viewOf(map),
                               .size = size,
@@ -38,7 +38,7 @@ render::blocks::ShadowViewValues valuesOf(const Map& map, std::size_t viewport) 
                               .block = {}};
   return {.eye = viewValues(data),
           .depthPlaneW = map.projection.depthPlaneW,
-          .place = uvec4(map.place.layer, viewport, 0, 0)};
+          .place = uvec4(map.place.layer, 0, 0, 0)};
 }
 
 // All but translucent surfaces, lines and points.
@@ -88,23 +88,19 @@ void MapDrawer::draw(const render::GpuScene& gpuScene, const gpu::Texture& textu
 
 std::size_t MapDrawer::fill(Group& group, const render::GpuScene& gpuScene,
                             std::span<const Map> maps) {
-  group.viewports.clear();
   std::vector<render::blocks::ShadowViewValues> views;
   std::vector<Caster> casters;
   std::vector<std::uint32_t> seen;
   for (const Map& map : maps) {
-    const gpu::Rect rect = rectOf(map.place);
-    const bool newPlace = group.viewports.empty() || !(group.viewports.back() == rect);
     seen.clear();
     gpuScene.bvh.query(viewOf(map).frustumW(), seen);
     std::erase_if(seen, [&](std::uint32_t index) { return !throwsShadows(gpuScene, index); });
     const bool fits = layered_ && map.projection.warped == maps.front().projection.warped &&
-                      (!newPlace || group.viewports.size() < gpu::kMostViewports) &&
+                      rectOf(map.place) == rectOf(maps.front().place) &&
                       casters.size() + seen.size() <= gpuScene.longestList();
     if (!views.empty() && !fits) break;
-    if (newPlace) group.viewports.push_back(rect);
     const auto view = static_cast<std::uint32_t>(views.size());
-    views.push_back(valuesOf(map, group.viewports.size() - 1));
+    views.push_back(valuesOf(map));
     for (const std::uint32_t index : seen) casters.push_back(casterOf(gpuScene, index, view));
   }
   std::ranges::sort(casters);
@@ -122,9 +118,11 @@ std::size_t MapDrawer::fill(Group& group, const render::GpuScene& gpuScene,
 
 void MapDrawer::draw(const Group& group, const render::GpuScene& gpuScene,
                      const gpu::Texture& texture, const Map& first) {
-  gpu::Rendering rendering = device_.render(
-      {.colors = {}, .depth = {.texture = &texture, .layer = layered_ ? -1 : first.place.layer}});
-  rendering.setViewports(group.viewports);
+  gpu::Rendering rendering =
+      device_.render({.colors = {},
+                      .depth = {.texture = &texture, .layer = layered_ ? -1 : first.place.layer},
+                      .viewport = rectOf(first.place)});
+  rendering.setScissor(rectOf(first.place));
   rendering.buffer("ShadowViewBlock", group.views);
   // Back faces throw shadows, too: a wall is no less opaque from behind.
   render::ObjectPrograms& programs = first.projection.warped ? warpedPrograms_ : programs_;

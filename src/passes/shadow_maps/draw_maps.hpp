@@ -13,8 +13,8 @@ namespace lucerna::passes {
 
 class MapDrawer {
  public:
-  // layered: instances choose layer and viewport (gpu::kFeatureLayeredVertex), and a group holds
-  // maps in up to gpu::kMostViewports places of any number of layers. Without, it holds one map.
+  // layered: instances choose their layer (gpu::kFeatureLayeredVertex), and a group holds maps that
+  // fill the same square of any layers. Without, it holds one map.
   MapDrawer(gpu::Device& device, bool layered);
   // Clears the maps' squares of the texture and draws them; the rest of it stays. What a map gets
   // does not depend on the others.
@@ -23,7 +23,6 @@ class MapDrawer {
 
  private:
   struct Group {
-    std::vector<gpu::Rect> viewports;
     render::DrawList list;
     gpu::Buffer views;  // ShadowViewBlock
   };
