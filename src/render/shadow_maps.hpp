@@ -43,6 +43,7 @@ struct ShadowMaps {
   };
   std::vector<Drawn> drawn;
   gpu::Buffer mapBlock, lightBlock;
+  std::uint64_t revision = 0;  // grows when a map is drawn
 };
 
 // Free at each edge of a map, in texels, so that filters of up to nine by nine stay inside it, with

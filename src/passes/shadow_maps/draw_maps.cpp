@@ -76,7 +76,7 @@ void MapDrawer::draw(const render::GpuScene& gpuScene, const gpu::Texture& textu
     return std::tuple(map.projection.warped, map.place.side, map.place.corner.y,
                       map.place.corner.x);
   });
-  for (const Map& map : maps) device_.clearDepth(texture, 0.f, map.place.layer, rectOf(map.place));
+  for (const Map& map : maps) device_.clear(texture, vec4(0.f), map.place.layer, rectOf(map.place));
   std::size_t used = 0;
   for (std::span<const Map> rest(maps); !rest.empty(); ++used) {
     if (used == groups_.size()) groups_.emplace_back();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -94,12 +95,13 @@ std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   return faces;
 }
 
-// Layers of the lamps' texture: of localSize, or less where not even one would fit the budget.
+// Layers of the lamps' texture: of a power of two, so that maps halve evenly; of less than
+// localSize where not even one would fit the budget.
 render::ShadowMapSize layersOf(int localSize, int localMemory) {
   constexpr std::int64_t kBytesOfTexel = 4;
   constexpr std::int64_t kMostLayers = 2048;  // that OpenGL 4.5 promises
   const std::int64_t texels = (std::int64_t{localMemory} << 20) / kBytesOfTexel;
-  std::int64_t side = localSize;
+  auto side = static_cast<std::int64_t>(std::bit_floor(static_cast<unsigned>(localSize)));
   while (side * side > texels) side /= 2;
   return {.side = static_cast<int>(side),
           .layers = static_cast<int>(std::min(texels / (side * side), kMostLayers))};

@@ -35,7 +35,7 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
       .help(
           "Side of a spot light's map, and of each of the six of a point light, where its reach "
           "fills the picture's shorter side; half of it where that fills half, down to an "
-          "eighth.");
+          "eighth. Rounded down to a power of two.");
   d.param("localLights", &Params::localLights)
       .range(0, 256)
       .help("Most spot and point lights that throw shadows: those that light the view most.");
@@ -87,6 +87,7 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
       return drawn.place.overlaps(map.place);
     });
     out.drawn.push_back(wanted);
+    ++out.revision;
   }
   drawer_.draw(*ports.scene, out.directional, std::move(directional));
   drawer_.draw(*ports.scene, out.local, std::move(local));
