@@ -15,7 +15,7 @@ struct ViewValues {
   vec4 clipPlaneW;     // gl_ClipDistance[0] of (p, 1), in m; (0, 0, 0, 1): nothing is cut
 };
 
-// Element of the storage block ShadowViewBlock (render/view.glsl).
+// Element of the storage block ShadowViewBlock (render/shadow_views.glsl).
 struct ShadowViewValues {
   ViewValues eye;
   vec4 depthPlaneW;    // of directional lights: the depth that the map holds
@@ -82,5 +82,5 @@ struct ShadowMapValues {
   vec4 inner;          // x: part of the map, from its middle, that it is made for; of lamps yz: a map's depth d
                        // is at y / (d + z) m along its axis
   vec4 square;         // in its layer, in parts of the layer's side: xy: lower left corner; z: side
-  uvec4 place;         // layer; 1: of the lamps' texture
+  uvec4 place;         // layer; 1: of the lamps' texture; 1: sees translucent surfaces
 };

@@ -14,6 +14,7 @@ layout(location = 6) flat out uint viewIndex;
 layout(location = 7) flat out vec4 depthPlaneW;
 layout(std430) readonly buffer DrawViewBlock { uint drawViews[]; };  // of the list's objects
 #endif
+#include "render/shadow_views.glsl"
 #include "render/scene.glsl"
 #include "render/view.glsl"
 

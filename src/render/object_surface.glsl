@@ -8,6 +8,7 @@
 #ifdef SHADOW_VIEWS
 layout(location = 6) flat in uint viewIndex;
 #endif
+#include "render/shadow_views.glsl"
 #include "render/scene.glsl"
 #include "render/surface.glsl"
 #include "render/view.glsl"

@@ -1,6 +1,7 @@
 #include "render/shadow_maps.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "render/blocks.hpp"
 
@@ -12,23 +13,47 @@ bool ShadowMaps::Place::overlaps(const Place& other) const {
          glm::all(glm::lessThan(other.corner, corner + side));
 }
 
+bool ShadowMaps::seesPanes() const {
+  return std::ranges::any_of(maps, &Map::seesPanes);
+}
+
 namespace {
 
-void fit(gpu::Device& device, ShadowMaps& shadowMaps, bool local, const ShadowMapSize& size) {
-  gpu::Texture& texture = local ? shadowMaps.local : shadowMaps.directional;
-  if (size.layers == 0 && texture) return;
-  const int side = size.layers > 0 ? size.side : 1, layers = std::max(size.layers, 1);
-  if (texture && texture.width() == side && texture.desc().layers == layers) return;
+// Whether it had to be made anew.
+bool fit(gpu::Device& device, gpu::Texture& texture, gpu::Format format, int side, int layers,
+         const std::string& label, std::string_view remedy) {
+  if (texture && texture.width() == side && texture.desc().layers == layers) return false;
   texture = {};  // before the new one is made
-  std::erase_if(shadowMaps.drawn,
-                [&](const ShadowMaps::Drawn& drawn) { return drawn.place.local == local; });
-  texture =
-      device.createTexture({.kind = gpu::TextureKind::Array2D,
-                            .format = gpu::Format::Depth32F,
-                            .width = side,
-                            .height = side,
-                            .layers = layers},
-                           local ? "local shadow maps" : "directional shadow maps", size.remedy);
+  texture = device.createTexture({.kind = gpu::TextureKind::Array2D,
+                                  .format = format,
+                                  .width = side,
+                                  .height = side,
+                                  .layers = layers},
+                                 label, remedy);
+  return true;
+}
+
+void fit(gpu::Device& device, ShadowMaps& shadowMaps, bool local, const ShadowMapSize& size) {
+  gpu::Texture& depth = local ? shadowMaps.local : shadowMaps.directional;
+  ShadowMaps::Panes& ofPanes = local ? shadowMaps.localPanes : shadowMaps.directionalPanes;
+  if (size.layers == 0 && depth) return;
+  const int side = size.layers > 0 ? size.side : 1, layers = std::max(size.layers, 1);
+  const std::string kind = local ? "local" : "directional";
+  bool anew =
+      fit(device, depth, gpu::Format::Depth32F, side, layers, kind + " shadow maps", size.remedy);
+  const bool panes = std::ranges::any_of(shadowMaps.maps, [&](const ShadowMaps::Map& map) {
+    return map.seesPanes && map.place.local == local;
+  });
+  if (panes || !ofPanes.depth) {
+    const int paneSide = panes ? side : 1, paneLayers = panes ? layers : 1;
+    anew |= fit(device, ofPanes.halvings, gpu::Format::Rgba16Unorm, paneSide, paneLayers,
+                kind + " panes", size.remedy);
+    anew |= fit(device, ofPanes.depth, gpu::Format::Depth32F, paneSide, paneLayers,
+                kind + " panes' depth", size.remedy);
+  }
+  if (anew)
+    std::erase_if(shadowMaps.drawn,
+                  [&](const ShadowMaps::Drawn& drawn) { return drawn.place.local == local; });
 }
 
 }  // namespace
@@ -51,7 +76,7 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
                     .inner = vec4(map.projection.inner, map.projection.clipFromView[3][2],
                                   map.projection.clipFromView[2][2], 0.f),
                     .square = vec4(vec2(place.corner), place.side, 0.f) * ofLayer,
-                    .place = uvec4(place.layer, place.local ? 1 : 0, 0, 0)});
+                    .place = uvec4(place.layer, place.local ? 1 : 0, map.seesPanes ? 1 : 0, 0)});
   }
   std::vector<uvec4> lights;
   for (const ShadowMaps::Range& range : shadowMaps.ofLight)
@@ -78,6 +103,10 @@ void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool 
                             .v = gpu::Address::ClampToBorder};
   commands.texture("directionalShadowDepths", shadowMaps.directional, depths);
   commands.texture("localShadowDepths", shadowMaps.local, depths);
+  commands.texture("directionalPaneHalvings", shadowMaps.directionalPanes.halvings, depths);
+  commands.texture("localPaneHalvings", shadowMaps.localPanes.halvings, depths);
+  commands.texture("directionalPaneDepths", shadowMaps.directionalPanes.depth, depths);
+  commands.texture("localPaneDepths", shadowMaps.localPanes.depth, depths);
 }
 
 }  // namespace lucerna::render

@@ -25,6 +25,7 @@ struct ShadowMaps {
   struct Map {
     ShadowProjection projection;
     Place place;
+    bool seesPanes = false;  // translucent surfaces, which colour the light
   };
   struct Range {
     std::uint32_t first = 0, count = 0;  // count 0: the light throws no shadow
@@ -34,6 +35,13 @@ struct ShadowMaps {
   std::vector<Range> ofLight;
   // Depth32F arrays; of one texel where there is no map
   gpu::Texture directional, local;
+  // Of translucent surfaces; arrays of the same sizes, or of one texel where no map sees any.
+  struct Panes {
+    gpu::Texture halvings;  // Rgba16Unorm: of all before what is opaque (render/transmittance.glsl)
+    gpu::Texture depth;     // Depth32F: of the one that is nearest to the light
+  };
+  Panes directionalPanes, localPanes;
+  bool seesPanes() const;  // some map does
   // What the textures show, and what it was drawn from. No place overlaps another.
   struct Drawn {
     Place place;

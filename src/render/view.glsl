@@ -1,11 +1,8 @@
 // The view that is drawn, and positions from its depth.
-//   SHADOW_VIEWS  the view is one of those of ShadowViewBlock: the shader has declared its viewIndex before
+//   SHADOW_VIEWS  the view is one of those of render/shadow_views.glsl, which comes before
 #include "render/blocks.glsl"
 
-#ifdef SHADOW_VIEWS
-layout(std430) readonly buffer ShadowViewBlock { ShadowViewValues shadowViews[]; };
-#define view shadowViews[viewIndex].eye
-#else
+#ifndef SHADOW_VIEWS
 layout(std140) uniform ViewBlock { ViewValues view; };
 #endif
 

@@ -81,7 +81,7 @@ TEST(DrawMaps, TogetherAsEachAlone) {
     const std::vector<Map> maps = mapsOf(view, local);
     passes::MapDrawer oneByOne(device, false);
     const gpu::Texture alone = layers();
-    for (const Map& map : maps) oneByOne.draw(renderer.gpuScene, alone, {map});
+    for (const Map& map : maps) oneByOne.draw(renderer.gpuScene, alone, {}, {map});
     const std::vector<Image> wanted = imagesOf(alone);
     int shown = 0;
     for (const float depth : wanted[0].as<float>()) shown += depth > 0.f;
@@ -91,9 +91,9 @@ TEST(DrawMaps, TogetherAsEachAlone) {
       const gpu::Texture together = layers();
       passes::MapDrawer drawer(device, layered);
       device.resetCounters();
-      drawer.draw(renderer.gpuScene, together, maps);
+      drawer.draw(renderer.gpuScene, together, {}, maps);
       EXPECT_TRUE(same(imagesOf(together), wanted)) << layered << local;
-      drawer.draw(renderer.gpuScene, together, maps);
+      drawer.draw(renderer.gpuScene, together, {}, maps);
       EXPECT_TRUE(same(imagesOf(together), wanted)) << "once more";
     }
   }
@@ -112,7 +112,7 @@ TEST(DrawMaps, DrawsDoNotGrowWithTheLayers) {
   const gpu::Texture texture = layers();
   const auto drawsOf = [&](const std::vector<Map>& maps) {
     device.resetCounters();
-    drawer.draw(renderer.gpuScene, texture, maps);
+    drawer.draw(renderer.gpuScene, texture, {}, maps);
     return device.counters().draws;
   };
   std::vector<Map> maps{map};

@@ -97,10 +97,10 @@ std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
 
 // Layers of the lamps' texture: of a power of two, so that maps halve evenly; of less than
 // localSize where not even one would fit the budget.
-render::ShadowMapSize layersOf(int localSize, int localMemory) {
-  constexpr std::int64_t kBytesOfTexel = 4;
-  constexpr std::int64_t kMostLayers = 2048;  // that OpenGL 4.5 promises
-  const std::int64_t texels = (std::int64_t{localMemory} << 20) / kBytesOfTexel;
+render::ShadowMapSize layersOf(int localSize, int localMemory, bool translucent) {
+  const std::int64_t bytesOfTexel = translucent ? 4 + 8 + 4 : 4;  // of render::ShadowMaps
+  constexpr std::int64_t kMostLayers = 2048;                      // that OpenGL 4.5 promises
+  const std::int64_t texels = (std::int64_t{localMemory} << 20) / bytesOfTexel;
   auto side = static_cast<std::int64_t>(std::bit_floor(static_cast<unsigned>(localSize)));
   while (side * side > texels) side /= 2;
   return {.side = static_cast<int>(side),
@@ -144,13 +144,14 @@ std::vector<float> splitsOf(const render::Viewer& viewer, const std::vector<vec3
 class Planner {
  public:
   Planner(const ShadowMaps::Params& params, std::span<const scene::PlacedLight> lights,
-          std::span<const scene::View> views, const scene::Bvh& bvh, LampMaps& former)
+          std::span<const scene::View> views, const Surfaces& surfaces, LampMaps& former)
       : params_(params),
         lights_(lights),
         views_(views),
-        boxW_(bvh.nodes()[0].box),
+        boxW_(surfaces.bvh.nodes()[0].box),
         body_(render::visibleBody(views, boxW_)),
-        samples_(render::visibleSamples(views, bvh)),
+        samples_(render::visibleSamples(views, surfaces.bvh)),
+        translucent_(surfaces.translucent),
         former_(former) {
     plan_.ofLight.resize(lights.size());
   }
@@ -171,7 +172,8 @@ class Planner {
 
   // lamps: most important first.
   void local(const std::vector<std::uint32_t>& lamps) {
-    const auto [side, mostLayers, remedy] = layersOf(params_.localSize, params_.localMemory);
+    const auto [side, mostLayers, remedy] =
+        layersOf(params_.localSize, params_.localMemory, translucent_);
     std::vector<LampSizes::Lamp> sized;
     std::vector<std::vector<Face>> faces;
     for (const std::uint32_t light : lamps) {
@@ -266,6 +268,7 @@ class Planner {
   const Aabb boxW_;
   const std::vector<vec3> body_, samples_;
   const render::Viewer viewer_ = render::viewerOf(views_);
+  const bool translucent_;
   LampMaps& former_;
   int directionalLayers_ = 0;
   ShadowMapPlan plan_;
@@ -275,14 +278,14 @@ class Planner {
 
 ShadowMapPlan planShadowMaps(const ShadowMaps::Params& params,
                              std::span<const scene::PlacedLight> lights,
-                             std::span<const scene::View> views, const scene::Bvh& bvh,
+                             std::span<const scene::View> views, const Surfaces& surfaces,
                              LampMaps& former) {
-  if (bvh.nodes().empty())
+  if (surfaces.bvh.nodes().empty())
     return {.ofLight = std::vector<render::ShadowMaps::Range>(lights.size())};
-  Planner planner(params, lights, views, bvh, former);
+  Planner planner(params, lights, views, surfaces, former);
   for (std::uint32_t i = 0; i < lights.size(); ++i)
     if (lights[i].kind == scene::LightKind::Directional) planner.directional(i);
-  planner.local(lampsOf(lights, views, bvh.nodes()[0].box));
+  planner.local(lampsOf(lights, views, surfaces.bvh.nodes()[0].box));
   return planner.take();
 }
 

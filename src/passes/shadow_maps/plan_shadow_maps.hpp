@@ -13,11 +13,15 @@ struct ShadowMapPlan {
   int lampsWithMaps = 0, lampsOverCount = 0, lampsOverMemory = 0;
 };
 
-// bvh: over the boxes of what throws and what catches shadows. former: what the last frame's plan
-// left there; empty at first.
+struct Surfaces {
+  const scene::Bvh& bvh;     // over the boxes of what throws and what catches shadows
+  bool translucent = false;  // there are some that colour the light
+};
+
+// former: what the last frame's plan left there; empty at first.
 ShadowMapPlan planShadowMaps(const ShadowMaps::Params& params,
                              std::span<const scene::PlacedLight> lights,
-                             std::span<const scene::View> views, const scene::Bvh& bvh,
+                             std::span<const scene::View> views, const Surfaces& surfaces,
                              LampMaps& former);
 
 }  // namespace lucerna::passes

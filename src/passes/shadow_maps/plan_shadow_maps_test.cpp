@@ -17,6 +17,7 @@ struct Hall {
   std::vector<scene::PlacedLight> lights;
   std::vector<scene::View> views{1};
   scene::Bvh bvh;
+  bool translucent = false;
 
   explicit Hall(int lamps) {
     bvh.build(std::vector<Aabb>{{vec3(-20, 0, -20), vec3(20, 10, 20)}});
@@ -38,7 +39,7 @@ struct Hall {
   }
 
   ShadowMapPlan plan(const ShadowMaps::Params& params, LampMaps& former) const {
-    return planShadowMaps(params, lights, views, bvh, former);
+    return planShadowMaps(params, lights, views, {bvh, translucent}, former);
   }
 };
 
@@ -76,6 +77,17 @@ TEST(PlanShadowMaps, LampsShrinkToTheirMemoryAndOnlyThenAreLeftOut) {
     EXPECT_EQ(plan.lampsOverMemory > 0, memory < 24) << "256 lamps, six faces, 64 texels";
     expectApart(plan);
   }
+}
+
+// Four times as many bytes for each texel.
+TEST(PlanShadowMaps, TranslucentSurfacesTakeTheirMemory) {
+  Hall hall(64);
+  hall.translucent = true;
+  LampMaps former;
+  const ShadowMapPlan plan = hall.plan({}, former);
+  EXPECT_EQ(plan.lampsWithMaps, 64);
+  EXPECT_LE(4 * bytesOf(plan.local), 512 * kMebibyte);
+  EXPECT_GT(4 * bytesOf(plan.local), 256 * kMebibyte);
 }
 
 TEST(PlanShadowMaps, AMapIsNeverLargerThanTheMemory) {

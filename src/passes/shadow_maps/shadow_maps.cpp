@@ -44,13 +44,15 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
       .unit("MiB")
       .help(
           "Most memory for their maps: 384 MiB hold the six of 64 point lights at 512 texels. "
-          "Where more is wanted, maps of those that light the view least are smaller.");
+          "Where more is wanted, maps of those that light the view least are smaller. With "
+          "translucent surfaces in the scene a texel takes 16 bytes instead of 4.");
   d.param("redraw", &Params::redraw)
       .choices({"changed", "always"})
       .help(
           "changed: a map is drawn where its light, the views or any object have changed since; "
           "always: in every frame.");
-  d.read("scene", &Ports::scene).help("What throws shadows: all but translucent surfaces.");
+  d.read("scene", &Ports::scene)
+      .help("What throws shadows; translucent surfaces colour the light.");
   d.read("lights", &Ports::lights).help("Lights that are on.");
   d.read("views", &Ports::views).help("All that they see is in the maps.");
   d.write("shadowMaps", &Ports::shadowMaps).help("Maps, and which light they belong to.");
@@ -64,8 +66,11 @@ void ShadowMaps::warnOfLamps(int withMaps, int leftOut, const char* remedy) {
 }
 
 void ShadowMaps::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
-  ShadowMapPlan plan =
-      planShadowMaps(params, ports.lights->lights, ports.views->views, ports.scene->bvh, lamps_);
+  const bool translucent = std::ranges::any_of(
+      ports.scene->scene->materials,
+      [](const scene::Material& m) { return m.alphaMode == scene::AlphaMode::Blend; });
+  ShadowMapPlan plan = planShadowMaps(params, ports.lights->lights, ports.views->views,
+                                      {ports.scene->bvh, translucent}, lamps_);
   warnOfLamps(plan.lampsWithMaps, plan.lampsOverCount + plan.lampsOverMemory,
               plan.lampsOverMemory > 0 ? "localMemory" : "localLights");
   plan.directional.remedy = params.method == Method::Cascades
@@ -75,6 +80,8 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
   render::ShadowMaps& out = *ports.shadowMaps;
   out.maps = std::move(plan.maps);
   out.ofLight = std::move(plan.ofLight);
+  if (translucent)
+    for (render::ShadowMaps::Map& map : out.maps) map.seesPanes = seesPanes(*ports.scene, map);
   prepareShadowMaps(context.device, out, plan.directional, plan.local);
   std::vector<render::ShadowMaps::Map> directional, local;
   for (const render::ShadowMaps::Map& map : out.maps) {
@@ -89,8 +96,8 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
     out.drawn.push_back(wanted);
     ++out.revision;
   }
-  drawer_.draw(*ports.scene, out.directional, std::move(directional));
-  drawer_.draw(*ports.scene, out.local, std::move(local));
+  drawer_.draw(*ports.scene, out.directional, out.directionalPanes, std::move(directional));
+  drawer_.draw(*ports.scene, out.local, out.localPanes, std::move(local));
 }
 
 }  // namespace lucerna::passes
