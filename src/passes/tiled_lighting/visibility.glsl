@@ -1,9 +1,11 @@
 // What both shaders need for shadows: the surface, and the light that reaches it.
+//   PREFILTERED_SHADOWS  moments of the maps tell, not the maps
 //   LAYERED_SHADOWS  screen-space shadows of lights that have a layer; as many array layers
 //   ALL_IN_LAYERS    all that throw shadows have one: software rasterisers run both ways of an if
 #include "render/read_gbuffer.glsl"
 #include "render/plane_normal.glsl"
 #include "render/shading.glsl"
+#include "render/prefiltered_shadows.glsl"
 #include "render/shadows.glsl"
 
 // The pixel's, for lightVisibility().
@@ -63,5 +65,9 @@ float lightVisibility(Surface s, uint light) {
 #endif
   LightValues values = lights[light];
   vec3 toLightW = normalize(values.position.xyz - s.positionW * values.position.w);
+#ifdef PREFILTERED_SHADOWS
+  return prefilteredVisibility(light, s.positionW, planeNormalW, toLightW);
+#else
   return shadowVisibility(light, s.positionW, planeNormalW, toLightW);
+#endif
 }

@@ -1,0 +1,38 @@
+// PrefilteredShadows: moments of what shadow maps show, blurred once so that a lookup needs one
+// tap.
+#pragma once
+
+#include <array>
+
+#include "graph/pass_info.hpp"
+#include "render/prefiltered_shadows.hpp"
+#include "render/shadow_maps.hpp"
+
+namespace lucerna::passes {
+
+class PrefilteredShadows {
+ public:
+  enum class Resolution { Full, Half, Quarter };
+  enum class Redraw { Changed, Always };
+  struct Params {
+    int kernel = 11;  // texels of a shadow map, odd
+    Resolution resolution = Resolution::Half;
+    Redraw redraw = Redraw::Changed;
+  };
+  struct Ports {
+    graph::In<render::ShadowMaps> shadowMaps;
+    graph::Out<render::PrefilteredShadows> prefilteredShadows;
+  };
+
+  static void describe(graph::PassInfo<Params, Ports>& d);
+  explicit PrefilteredShadows(gpu::Device& device);
+  void execute(graph::PassContext& context, const Params& params, const Ports& ports);
+
+ private:
+  void prefilter(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map);
+
+  gpu::ProgramPtr moments_, blur_;
+  std::array<gpu::Texture, 2> between_;  // as large as the largest map's moments
+};
+
+}  // namespace lucerna::passes

@@ -1,0 +1,44 @@
+// Four moments of the depths around a point, and what they say of a depth: Peters and Klein, "Moment Shadow Mapping",
+// I3D 2015. Depths are within [-1, 1], -1 nearest to the light.
+
+// Of a shadow map's depth, which is reversed: half the range of distances along its axis. lampShare: of lamps, a depth d
+// is at the share lampShare / (d + lampShare) of the farthest distance; not used for directional lights.
+float momentDepth(bool directional, float lampShare, float mapDepth) {
+  return directional ? 1.0 - 2.0 * mapDepth : (lampShare - mapDepth) / (lampShare + mapDepth);
+}
+
+vec4 momentsOf(float z) {
+  float squared = z * z;
+  return vec4(z, squared, z * squared, squared * squared);
+}
+
+// This share of the depths is taken to be spread evenly over the range: more than what rounding of 32-bit floats may do to
+// moments, so that they stay those of some distribution.
+const float kSpread = 2e-6;
+const vec4 kEvenMoments = vec4(0.0, 1.0 / 3.0, 0.0, 1.0 / 5.0);
+
+// The least share of depths below z that these moments allow: exact where the rest of them are at one depth or two, of
+// which one may be z itself.
+//
+// Of all distributions with the moments, the one that has an atom at z and two more has the least below z. In standard
+// deviations from the mean, z is t; with the skewness s, the kurtosis k and D = k - s^2 - 1 the first orthonormal
+// polynomials are 1, x and q(x) / sqrt(D), q(x) = x^2 - s x - 1. Their kernel K(t, x) = 1 + t x + q(t) q(x) / D is zero at
+// the two other atoms, and t weighs 1 / K(t, t); the other two weigh what mass 1 and mean 0 leave.
+float leastShareBelow(vec4 moments, float z) {
+  vec4 b = mix(moments, kEvenMoments, kSpread);
+  float mean = b.x, variance = max(b.y - mean * mean, 1e-12);
+  float third = b.z - mean * (3.0 * b.y - 2.0 * mean * mean);
+  float fourth = b.w - mean * (4.0 * b.z - mean * (6.0 * b.y - 3.0 * mean * mean));
+  float toDeviations = inversesqrt(variance);
+  float t = (z - mean) * toDeviations, s = third * toDeviations / variance;
+  float d = max(fourth / (variance * variance) - s * s - 1.0, 1e-12);
+  float q = t * t - s * t - 1.0;
+  float own = 1.0 / (1.0 + t * t + q * q / d);
+  // K is zero where x^2 + (t d / q - s) x + d / q - 1 is; q near 0: one of them far away, where hardly anything is.
+  float ratio = d / (abs(q) < 1e-9 ? 1e-9 : q);
+  float middle = 0.5 * (s - t * ratio);
+  float apart = sqrt(max(middle * middle - ratio + 1.0, 1e-12));
+  float nearest = middle - apart, farthest = middle + apart;
+  float ofNearest = ((1.0 - own) * farthest + own * t) / (2.0 * apart);
+  return t > farthest ? 1.0 - own : t > nearest ? clamp(ofNearest, 0.0, 1.0) : 0.0;
+}

@@ -1,0 +1,28 @@
+// Shadow maps prefiltered: moments of the depths around each place, as PrefilteredShadows makes
+// them and render/prefiltered_shadows.glsl reads them.
+#pragma once
+
+#include <vector>
+
+#include "gpu/device.hpp"
+#include "render/shadow_maps.hpp"
+
+namespace lucerna::render {
+
+struct PrefilteredShadows {
+  static constexpr const char* kPortName = "PrefilteredShadows";
+  // Rgba32Float arrays with the layers of ShadowMaps::directional and local: mean of z, z^2, z^3
+  // and z^4 (render/moments.glsl), blurred. None without maps.
+  gpu::Texture directional, local;
+  int texels = 1;  // of a shadow map, along each side of a texel of these
+  int kernel = 0;  // width of the blur, texels of a shadow map; 0: nothing was made
+  // Standard deviation of the places whose depths a lookup takes together, along each axis, texels
+  // of a shadow map.
+  float deviation = 0.f;
+  std::vector<ShadowMaps::Drawn> madeDirectional, madeLocal;  // of which maps, each layer
+};
+
+// Beyond its edge a map goes on as it is there.
+void bindPrefilteredShadows(gpu::Commands& commands, const PrefilteredShadows& shadows);
+
+}  // namespace lucerna::render
