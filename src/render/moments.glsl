@@ -17,14 +17,18 @@ vec4 momentsOf(float z) {
 const float kSpread = 2e-6;
 const vec4 kEvenMoments = vec4(0.0, 1.0 / 3.0, 0.0, 1.0 / 5.0);
 
-// The least share of depths below z that these moments allow: exact where the rest of them are at one depth or two, of
-// which one may be z itself.
+// The least share of depths before z that these moments allow: exact where the rest of them are at one depth or two, of
+// which one may be z itself. mean: of those before z; z where there are none.
 //
-// Of all distributions with the moments, the one that has an atom at z and two more has the least below z. In standard
+// Of all distributions with the moments, the one that has an atom at z and two more has the least before z. In standard
 // deviations from the mean, z is t; with the skewness s, the kurtosis k and D = k - s^2 - 1 the first orthonormal
 // polynomials are 1, x and q(x) / sqrt(D), q(x) = x^2 - s x - 1. Their kernel K(t, x) = 1 + t x + q(t) q(x) / D is zero at
 // the two other atoms, and t weighs 1 / K(t, t); the other two weigh what mass 1 and mean 0 leave.
-float leastShareBelow(vec4 moments, float z) {
+struct DepthsBefore {
+  float share;
+  float mean;
+};
+DepthsBefore depthsBefore(vec4 moments, float z) {
   vec4 b = mix(moments, kEvenMoments, kSpread);
   float mean = b.x, variance = max(b.y - mean * mean, 1e-12);
   float third = b.z - mean * (3.0 * b.y - 2.0 * mean * mean);
@@ -39,6 +43,9 @@ float leastShareBelow(vec4 moments, float z) {
   float middle = 0.5 * (s - t * ratio);
   float apart = sqrt(max(middle * middle - ratio + 1.0, 1e-12));
   float nearest = middle - apart, farthest = middle + apart;
-  float ofNearest = ((1.0 - own) * farthest + own * t) / (2.0 * apart);
-  return t > farthest ? 1.0 - own : t > nearest ? clamp(ofNearest, 0.0, 1.0) : 0.0;
+  float ofNearest = clamp(((1.0 - own) * farthest + own * t) / (2.0 * apart), 0.0, 1.0);
+  bool both = t > farthest, one = t > nearest;
+  float share = both ? 1.0 - own : one ? ofNearest : 0.0;
+  float before = both ? -own * t / max(1.0 - own, 1e-6) : one ? nearest : t;
+  return DepthsBefore(share, mean + before / toDeviations);
 }

@@ -3,8 +3,10 @@
 namespace lucerna::render {
 
 void bindPrefilteredShadows(gpu::Commands& commands, const PrefilteredShadows& shadows) {
-  commands.texture("directionalMoments", shadows.directional, gpu::kLinear);
-  commands.texture("localMoments", shadows.local, gpu::kLinear);
+  const gpu::Sampler sampler{.filter =
+                                 shadows.levels ? gpu::Filter::Trilinear : gpu::Filter::Linear};
+  commands.texture("directionalMoments", shadows.directional, sampler);
+  commands.texture("localMoments", shadows.local, sampler);
 }
 
 }  // namespace lucerna::render

@@ -14,6 +14,9 @@ struct PrefilteredShadows {
   // Rgba32Float arrays with the layers of ShadowMaps::directional and local: mean of z, z^2, z^3
   // and z^4 (render/moments.glsl), blurred. None without maps.
   gpu::Texture directional, local;
+  // Whether they have levels, each blurred and halved anew from the one before, for penumbrae that
+  // are as wide as the light's size makes them.
+  bool levels = false;
   int texels = 1;  // of a shadow map, along each side of a texel of these
   int kernel = 0;  // width of the blur, texels of a shadow map; 0: nothing was made
   // Standard deviation of the places whose depths a lookup takes together, along each axis, texels

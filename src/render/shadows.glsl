@@ -36,14 +36,14 @@ vec2 texelSize(ShadowMapValues map, float w) { return map.texel.xy * (isDirectio
 // A comparison reads the depths of the surface beside the point, which are nearer to the light by up to its reach over
 // the map times the surface's slope there. Moved off the surface by reach times the sine of the slope, a plane never
 // shadows itself.
-vec3 movedForShadow(ShadowMapValues map, float w, vec3 positionW, vec3 normalW, vec3 toLightW) {
+vec3 movedForShadow(ShadowMapValues map, float w, float reach, vec3 positionW, vec3 normalW, vec3 toLightW) {
   vec2 texel = texelSize(map, w);
   float corner = length(vec2(texel.x + map.texel.w * texel.y, texel.y));
   float cosine = dot(normalW, map.axisW.xyz);
   float sine = sqrt(max(1.0 - cosine * cosine, 0.0));
   float rounding = kPositionRounding * distance(positionW, view.eyeW.xyz);
   float mapRounding = kMapRounding * (length(positionW) + (isDirectional(map) ? map.axisW.w : w));
-  return positionW + normalW * (shadowNormalBias * (shadowReach * corner * sine + rounding)) +
+  return positionW + normalW * (shadowNormalBias * (reach * corner * sine + rounding)) +
          toLightW * (shadowBias + mapRounding);
 }
 
@@ -191,7 +191,7 @@ ShadowLookup lookUpShadow(uint light, vec3 positionW, vec3 normalW, vec3 toLight
   at.found = true;
   at.map = shadowMaps[chosen];
   at.w = (at.map.clipFromWorld * vec4(positionW, 1.0)).w;
-  at.positionW = movedForShadow(at.map, at.w, positionW, normalW, toLightW);
+  at.positionW = movedForShadow(at.map, at.w, shadowReach, positionW, normalW, toLightW);
   at.uvDepth = uvDepthOf(at.map, at.positionW);
   return at;
 }

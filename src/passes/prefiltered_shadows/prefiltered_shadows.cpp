@@ -9,6 +9,7 @@ namespace lucerna::passes {
 namespace {
 
 constexpr int kWidestKernel = 47;
+constexpr int kCoarsestSide = 8;  // texels of the last level, at least
 
 // The weights of a Gaussian's taps by their distance from its middle, which add up to 1. It goes as
 // far as 2.5 standard deviations. kernel: its width; texels: the taps' distance, in the same unit.
@@ -32,23 +33,32 @@ float deviationOf(const std::vector<float>& weights, int texels) {
   double taps = 0;
   for (std::size_t i = 1; i < weights.size(); ++i)
     taps += 2. * static_cast<double>(weights[i]) * static_cast<double>(i * i);
-  const double square = 1. * texels * texels;
-  return static_cast<float>(std::sqrt(square * taps + square / 12. + square / 4.));
+  return static_cast<float>(texels * std::sqrt(taps + 1. / 12. + 1. / 4.));
 }
 
-// As `maps`, with a texel for each square of its texels.
+// As `maps`, with a texel for each square of its texels; a little larger where halves would not be
+// whole.
+gpu::TextureDesc descOf(const gpu::Texture& maps, int texels, bool levels) {
+  int side = (maps.width() + texels - 1) / texels, count = 1;
+  if (levels) {
+    while (side >> count >= kCoarsestSide) ++count;
+    const int multiple = 1 << (count - 1);
+    side = (side + multiple - 1) / multiple * multiple;
+  }
+  return {.kind = gpu::TextureKind::Array2D,
+          .format = gpu::Format::Rgba32Float,
+          .width = side,
+          .height = side,
+          .layers = maps.desc().layers,
+          .levels = count};
+}
+
 void fit(gpu::Device& device, gpu::Texture& texture, std::vector<render::ShadowMaps::Drawn>& made,
-         const gpu::Texture& maps, int texels) {
-  const int side = (maps.width() + texels - 1) / texels;
-  const gpu::TextureDesc desc{.kind = gpu::TextureKind::Array2D,
-                              .format = gpu::Format::Rgba32Float,
-                              .width = side,
-                              .height = side,
-                              .layers = maps.desc().layers};
+         const gpu::TextureDesc& desc) {
   if (texture && texture.desc() == desc) return;
   texture = {};  // before the new one is made
   made.assign(static_cast<std::size_t>(desc.layers), {});
-  texture = device.createTexture(desc, "moments of " + maps.label(),
+  texture = device.createTexture(desc, "moments of shadow maps",
                                  "set resolution of PrefilteredShadows lower");
 }
 
@@ -58,11 +68,17 @@ void PrefilteredShadows::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("PrefilteredShadows",
          "Blurs moments of the depths in shadow maps, so that a lookup needs one tap.");
   d.runs(graph::Frequency::PerViewGroup);
+  d.param("penumbra", &Params::penumbra)
+      .choices({"kernel", "light"})
+      .help(
+          "kernel: as wide as the blur makes it; light: as wide as the light's size makes it, from "
+          "levels of wider and wider blur.");
   d.param("kernel", &Params::kernel)
       .range(1, kWidestKernel)
       .unit("px")
       .help(
-          "Width of the blur in texels of a shadow map; its standard deviation is a fifth of it.");
+          "Width of the blur, of the first level, in texels of a shadow map; its standard "
+          "deviation is a fifth of it.");
   d.param("resolution", &Params::resolution)
       .choices({"full", "half", "quarter"})
       .help("Of the moments along each side, as a share of the maps'.");
@@ -77,49 +93,76 @@ void PrefilteredShadows::describe(graph::PassInfo<Params, Ports>& d) {
   d.write("prefilteredShadows", &Ports::prefilteredShadows).help("Moments, layer for layer.");
 }
 
-PrefilteredShadows::PrefilteredShadows(gpu::Device& device)
-    : moments_(device.program({.vertex = "gpu/fullscreen.vert",
-                               .fragment = "passes/prefiltered_shadows/moments.frag"})),
-      blur_(device.program(
-          {.vertex = "gpu/fullscreen.vert", .fragment = "passes/prefiltered_shadows/blur.frag"})) {}
+PrefilteredShadows::PrefilteredShadows(gpu::Device& device) {
+  const auto program = [&](const char* shader) {
+    return device.program({.vertex = "gpu/fullscreen.vert",
+                           .fragment = fmt::format("passes/prefiltered_shadows/{}.frag", shader)});
+  };
+  moments_ = program("moments");
+  blur_ = program("blur");
+  halve_ = program("halve");
+}
+
+// Into between_[0].
+void PrefilteredShadows::makeMoments(gpu::Device& device, const Ports& ports,
+                                     const render::ShadowMaps::Map& map, const gpu::Rect& mapRect,
+                                     const gpu::Rect& viewport) {
+  gpu::Rendering rendering =
+      device.render({.colors = {{&between_[0], gpu::Load::Discard}}, .viewport = viewport});
+  rendering.use(*moments_, {.cull = gpu::Cull::None});
+  rendering.texture("shadowMaps",
+                    map.local ? ports.shadowMaps->local : ports.shadowMaps->directional,
+                    gpu::kNearest);
+  moments_->set("layer", map.layer);
+  moments_->set("corner", ivec2(mapRect.x, mapRect.y));
+  moments_->set("side", ivec2(mapRect.width, mapRect.height));
+  moments_->set("texels", ports.prefilteredShadows->texels);
+  moments_->set("directional", !map.local);
+  moments_->set("lampShare", map.projection.clipFromView[2][2]);
+  rendering.fullscreen();
+}
+
+void PrefilteredShadows::blur(gpu::Device& device, const gpu::Texture& from, const gpu::Targets& to,
+                              ivec2 axis, const std::vector<float>& weights) {
+  gpu::Rendering rendering = device.render(to);
+  rendering.use(*blur_, {.cull = gpu::Cull::None});
+  rendering.texture("unblurred", from, gpu::kNearest);
+  blur_->set("side", ivec2(to.viewport.width, to.viewport.height));
+  blur_->set("corner", ivec2(to.viewport.x, to.viewport.y));
+  blur_->set("axis", axis);
+  blur_->set("taps", static_cast<int>(weights.size()) - 1);
+  blur_->set("weights", std::span(weights));
+  rendering.fullscreen();
+}
+
+void PrefilteredShadows::makeLevels(gpu::Device& device, const gpu::Texture& texture, int layer) {
+  for (int level = 1; level < texture.desc().levels; ++level) {
+    gpu::Rendering rendering =
+        device.render({.colors = {{.texture = &texture, .layer = layer, .level = level}}});
+    rendering.use(*halve_, {.cull = gpu::Cull::None});
+    rendering.texture("levels", texture, gpu::kNearest);
+    halve_->set("layer", layer);
+    halve_->set("finer", level - 1);
+    rendering.fullscreen();
+  }
+}
 
 void PrefilteredShadows::prefilter(gpu::Device& device, const Ports& ports,
                                    const render::ShadowMaps::Map& map) {
   const render::PrefilteredShadows& out = *ports.prefilteredShadows;
   const gpu::Texture& maps = map.local ? ports.shadowMaps->local : ports.shadowMaps->directional;
   const gpu::Texture& result = map.local ? out.local : out.directional;
-  // The map fills its layer.
+  // A map fills its layer, and so do its moments.
   const gpu::Rect mapRect{0, 0, maps.width(), maps.height()};
   const gpu::Rect rect{0, 0, result.width(), result.height()};
   const gpu::Rect alone{0, 0, rect.width, rect.height};
-  {
-    gpu::Rendering rendering =
-        device.render({.colors = {{&between_[0], gpu::Load::Discard}}, .viewport = alone});
-    rendering.use(*moments_, {.cull = gpu::Cull::None});
-    rendering.texture("shadowMaps", maps, gpu::kNearest);
-    moments_->set("layer", map.layer);
-    moments_->set("corner", ivec2(mapRect.x, mapRect.y));
-    moments_->set("side", ivec2(mapRect.width, mapRect.height));
-    moments_->set("texels", out.texels);
-    moments_->set("directional", !map.local);
-    moments_->set("lampShare", map.projection.clipFromView[2][2]);
-    rendering.fullscreen();
-  }
   const std::vector<float> weights = weightsOf(out.kernel, out.texels);
-  const auto blur = [&](const gpu::Texture& from, const gpu::Targets& to, ivec2 axis) {
-    gpu::Rendering rendering = device.render(to);
-    rendering.use(*blur_, {.cull = gpu::Cull::None});
-    rendering.texture("unblurred", from, gpu::kNearest);
-    blur_->set("side", ivec2(alone.width, alone.height));
-    blur_->set("corner", ivec2(to.viewport.x, to.viewport.y));
-    blur_->set("axis", axis);
-    blur_->set("taps", static_cast<int>(weights.size()) - 1);
-    blur_->set("weights", std::span(weights));
-    rendering.fullscreen();
-  };
-  blur(between_[0], {.colors = {{&between_[1], gpu::Load::Discard}}, .viewport = alone}, {1, 0});
-  blur(between_[1], {.colors = {{.texture = &result, .layer = map.layer}}, .viewport = rect},
-       {0, 1});
+  makeMoments(device, ports, map, mapRect, alone);
+  blur(device, between_[0], {.colors = {{&between_[1], gpu::Load::Discard}}, .viewport = alone},
+       {1, 0}, weights);
+  blur(device, between_[1],
+       {.colors = {{.texture = &result, .layer = map.layer}}, .viewport = rect}, {0, 1}, weights);
+  makeLevels(device, result, map.layer);
 }
 
 void PrefilteredShadows::execute(graph::PassContext& context, const Params& params,
@@ -132,11 +175,13 @@ void PrefilteredShadows::execute(graph::PassContext& context, const Params& para
   const render::ShadowMaps& maps = *ports.shadowMaps;
   const int texels = 1 << static_cast<int>(params.resolution), kernel = params.kernel | 1;
   const bool all = params.redraw == Redraw::Always || out.texels != texels || out.kernel != kernel;
+  out.levels = params.penumbra == Penumbra::Light;
   out.texels = texels;
   out.kernel = kernel;
   out.deviation = deviationOf(weightsOf(kernel, texels), texels);
-  fit(context.device, out.directional, out.madeDirectional, maps.directional, texels);
-  fit(context.device, out.local, out.madeLocal, maps.local, texels);
+  fit(context.device, out.directional, out.madeDirectional,
+      descOf(maps.directional, texels, out.levels));
+  fit(context.device, out.local, out.madeLocal, descOf(maps.local, texels, out.levels));
   const int side = std::max(out.directional.width(), out.local.width());
   for (gpu::Texture& texture : between_)
     if (!texture || texture.width() != side)

@@ -12,9 +12,11 @@ namespace lucerna::passes {
 
 class PrefilteredShadows {
  public:
+  enum class Penumbra { Kernel, Light };
   enum class Resolution { Full, Half, Quarter };
   enum class Redraw { Changed, Always };
   struct Params {
+    Penumbra penumbra = Penumbra::Light;
     int kernel = 11;  // texels of a shadow map, odd
     Resolution resolution = Resolution::Half;
     Redraw redraw = Redraw::Changed;
@@ -30,8 +32,13 @@ class PrefilteredShadows {
 
  private:
   void prefilter(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map);
+  void makeMoments(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
+                   const gpu::Rect& mapRect, const gpu::Rect& viewport);
+  void blur(gpu::Device& device, const gpu::Texture& from, const gpu::Targets& to, ivec2 axis,
+            const std::vector<float>& weights);
+  void makeLevels(gpu::Device& device, const gpu::Texture& texture, int layer);
 
-  gpu::ProgramPtr moments_, blur_;
+  gpu::ProgramPtr moments_, blur_, halve_;
   std::array<gpu::Texture, 2> between_;  // as large as the largest map's moments
 };
 

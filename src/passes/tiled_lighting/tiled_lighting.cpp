@@ -117,6 +117,7 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Ports& po
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
   if (hasMoments(ports)) desc.defines["PREFILTERED_SHADOWS"] = "1";
+  if (hasMoments(ports) && ports.prefilteredShadows->levels) desc.defines["MOMENT_LEVELS"] = "1";
   if (hasLayers(ports))
     desc.defines["LAYERED_SHADOWS"] =
         std::to_string(render::arrayLayersOf(ports.layeredShadows->layers));
@@ -171,7 +172,7 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
     program.set("shadowSearchRadius", params.shadows == Shadows::Pcss ? params.search / 2 : -1);
     program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
     if (hasMoments(ports)) {
-      program.set("shadowReach", ports.prefilteredShadows->deviation);
+      program.set("momentDeviation", ports.prefilteredShadows->deviation);
       program.set("momentTexels", static_cast<float>(ports.prefilteredShadows->texels));
     }
     program.set("shadowBias", params.bias);
