@@ -1,4 +1,4 @@
-// Deferred shading in which all lights throw smooth shadows by moment shadow maps, which are blurred once.
+// Deferred shading in which all lights throw shadows with penumbrae, by moment shadow maps that are blurred once.
 // Objects with shaders of their own are drawn first, so that shadows darken them, too.
 pipeline({name: "prefiltered", output: "ToneMap.color"});
 
@@ -6,7 +6,7 @@ pass("Cull");
 pass("GBuffer");
 pass("CustomShaders");
 pass("ShadowMaps");
-pass("PrefilteredShadows", {kernel: 11});
+pass("PrefilteredShadows", {penumbra: "light", kernel: 5});
 pass("TileLights");
 pass("TiledLighting", {shadows: "prefiltered"});
 pass("Background");

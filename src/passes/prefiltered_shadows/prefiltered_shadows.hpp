@@ -17,7 +17,7 @@ class PrefilteredShadows {
   enum class Redraw { Changed, Always };
   struct Params {
     Penumbra penumbra = Penumbra::Light;
-    int kernel = 11;  // texels of a shadow map, odd
+    int kernel = 5;  // texels of a shadow map, odd
     Resolution resolution = Resolution::Half;
     Redraw redraw = Redraw::Changed;
   };

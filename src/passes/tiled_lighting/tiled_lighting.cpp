@@ -172,6 +172,7 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
     program.set("shadowSearchRadius", params.shadows == Shadows::Pcss ? params.search / 2 : -1);
     program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
     if (hasMoments(ports)) {
+      program.set("shadowReach", ports.prefilteredShadows->deviation);
       program.set("momentDeviation", ports.prefilteredShadows->deviation);
       program.set("momentTexels", static_cast<float>(ports.prefilteredShadows->texels));
     }
