@@ -18,11 +18,16 @@ struct PrefilteredShadows {
   // are as wide as the light's size makes them.
   bool levels = false;
   int texels = 1;  // of a shadow map, along each side of a texel of these
-  int kernel = 0;  // width of the blur, texels of a shadow map; 0: nothing was made
   // Standard deviation of the places whose depths a lookup takes together, along each axis, texels
   // of a shadow map.
   float deviation = 0.f;
-  std::vector<ShadowMaps::Drawn> madeDirectional, madeLocal;  // of which maps, each layer
+  // What a layer was made from last.
+  struct Made {
+    ShadowMaps::Drawn drawn;
+    int side = 0, texels = 0, kernel = 0;  // of the map and of the blur; 0: nothing was made
+    bool operator==(const Made&) const = default;
+  };
+  std::vector<Made> madeDirectional, madeLocal;  // of each layer
 };
 
 // Beyond its edge a map goes on as it is there.

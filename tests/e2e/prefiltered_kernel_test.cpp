@@ -101,7 +101,7 @@ TEST(PrefilteredKernel, EachLevelAddsWhatItsClosedFormSays) {
   ASSERT_TRUE(shadows.levels);
   const int levels = shadows.local.desc().levels;
   ASSERT_GE(levels, 5);
-  const double first = tapVariance(shadows.kernel, shadows.texels);
+  const double first = tapVariance(passes::PrefilteredShadows::Params{}.kernel, shadows.texels);
   // Downloads are of the first level: each is drawn to a picture of its own.
   const gpu::ProgramPtr program = testing::device().program(
       {.vertex = "gpu/fullscreen.vert", .fragment = "passes/prefiltered_shadows/halve.frag"});

@@ -53,8 +53,12 @@ gpu::TextureDesc descOf(const gpu::Texture& maps, int texels, bool levels) {
           .levels = count};
 }
 
-void fit(gpu::Device& device, gpu::Texture& texture, std::vector<render::ShadowMaps::Drawn>& made,
-         const gpu::TextureDesc& desc) {
+int texelsOf(PrefilteredShadows::Resolution resolution) {
+  return 1 << static_cast<int>(resolution);
+}
+
+void fit(gpu::Device& device, gpu::Texture& texture,
+         std::vector<render::PrefilteredShadows::Made>& made, const gpu::TextureDesc& desc) {
   if (texture && texture.desc() == desc) return;
   texture = {};  // before the new one is made
   made.assign(static_cast<std::size_t>(desc.layers), {});
@@ -94,31 +98,32 @@ void PrefilteredShadows::describe(graph::PassInfo<Params, Ports>& d) {
 }
 
 PrefilteredShadows::PrefilteredShadows(gpu::Device& device) {
-  const auto program = [&](const char* shader) {
+  const auto program = [&](const char* shader, std::map<std::string, std::string> defines = {}) {
     return device.program({.vertex = "gpu/fullscreen.vert",
-                           .fragment = fmt::format("passes/prefiltered_shadows/{}.frag", shader)});
+                           .fragment = fmt::format("passes/prefiltered_shadows/{}.frag", shader),
+                           .defines = std::move(defines)});
   };
-  moments_ = program("moments");
+  for (const Resolution resolution : {Resolution::Full, Resolution::Half, Resolution::Quarter})
+    moments_[static_cast<std::size_t>(resolution)] =
+        program("moments", {{"TEXELS", std::to_string(texelsOf(resolution))}});
   blur_ = program("blur");
   halve_ = program("halve");
 }
 
 // Into between_[0].
-void PrefilteredShadows::makeMoments(gpu::Device& device, const Ports& ports,
-                                     const render::ShadowMaps::Map& map, const gpu::Rect& mapRect,
+void PrefilteredShadows::makeMoments(gpu::Device& device, Resolution resolution,
+                                     const gpu::Texture& maps, const render::ShadowMaps::Map& map,
                                      const gpu::Rect& viewport) {
   gpu::Rendering rendering =
       device.render({.colors = {{&between_[0], gpu::Load::Discard}}, .viewport = viewport});
-  rendering.use(*moments_, {.cull = gpu::Cull::None});
-  rendering.texture("shadowMaps",
-                    map.local ? ports.shadowMaps->local : ports.shadowMaps->directional,
-                    gpu::kNearest);
-  moments_->set("layer", map.layer);
-  moments_->set("corner", ivec2(mapRect.x, mapRect.y));
-  moments_->set("side", ivec2(mapRect.width, mapRect.height));
-  moments_->set("texels", ports.prefilteredShadows->texels);
-  moments_->set("directional", !map.local);
-  moments_->set("lampShare", map.projection.clipFromView[2][2]);
+  const gpu::Program& program = *moments_[static_cast<std::size_t>(resolution)];
+  rendering.use(program, {.cull = gpu::Cull::None});
+  rendering.texture("shadowMaps", maps, gpu::kNearest);
+  program.set("layer", map.layer);
+  program.set("corner", ivec2(0));  // a map fills its layer
+  program.set("side", ivec2(maps.width(), maps.height()));
+  program.set("directional", !map.local);
+  program.set("lampShare", map.projection.clipFromView[2][2]);
   rendering.fullscreen();
 }
 
@@ -147,17 +152,16 @@ void PrefilteredShadows::makeLevels(gpu::Device& device, const gpu::Texture& tex
   }
 }
 
-void PrefilteredShadows::prefilter(gpu::Device& device, const Ports& ports,
+void PrefilteredShadows::prefilter(gpu::Device& device, const Params& params, const Ports& ports,
                                    const render::ShadowMaps::Map& map) {
   const render::PrefilteredShadows& out = *ports.prefilteredShadows;
-  const gpu::Texture& maps = map.local ? ports.shadowMaps->local : ports.shadowMaps->directional;
   const gpu::Texture& result = map.local ? out.local : out.directional;
   // A map fills its layer, and so do its moments.
-  const gpu::Rect mapRect{0, 0, maps.width(), maps.height()};
   const gpu::Rect rect{0, 0, result.width(), result.height()};
   const gpu::Rect alone{0, 0, rect.width, rect.height};
-  const std::vector<float> weights = weightsOf(out.kernel, out.texels);
-  makeMoments(device, ports, map, mapRect, alone);
+  const std::vector<float> weights = weightsOf(params.kernel | 1, out.texels);
+  makeMoments(device, params.resolution,
+              map.local ? ports.shadowMaps->local : ports.shadowMaps->directional, map, alone);
   blur(device, between_[0], {.colors = {{&between_[1], gpu::Load::Discard}}, .viewport = alone},
        {1, 0}, weights);
   blur(device, between_[1],
@@ -173,15 +177,13 @@ void PrefilteredShadows::execute(graph::PassContext& context, const Params& para
     return;
   }
   const render::ShadowMaps& maps = *ports.shadowMaps;
-  const int texels = 1 << static_cast<int>(params.resolution), kernel = params.kernel | 1;
-  const bool all = params.redraw == Redraw::Always || out.texels != texels || out.kernel != kernel;
+  const int kernel = params.kernel | 1;
   out.levels = params.penumbra == Penumbra::Light;
-  out.texels = texels;
-  out.kernel = kernel;
-  out.deviation = deviationOf(weightsOf(kernel, texels), texels);
+  out.texels = texelsOf(params.resolution);
+  out.deviation = deviationOf(weightsOf(kernel, out.texels), out.texels);
   fit(context.device, out.directional, out.madeDirectional,
-      descOf(maps.directional, texels, out.levels));
-  fit(context.device, out.local, out.madeLocal, descOf(maps.local, texels, out.levels));
+      descOf(maps.directional, out.texels, out.levels));
+  fit(context.device, out.local, out.madeLocal, descOf(maps.local, out.texels, out.levels));
   const int side = std::max(out.directional.width(), out.local.width());
   for (gpu::Texture& texture : between_)
     if (!texture || texture.width() != side)
@@ -189,11 +191,16 @@ void PrefilteredShadows::execute(graph::PassContext& context, const Params& para
           {.format = gpu::Format::Rgba32Float, .width = side, .height = side}, "moments");
   for (const render::ShadowMaps::Map& map : maps.maps) {
     const auto layer = static_cast<std::size_t>(map.layer);
-    const auto& drawn = (map.local ? maps.drawnLocal : maps.drawnDirectional)[layer];
-    auto& made = (map.local ? out.madeLocal : out.madeDirectional)[layer];
-    if (!all && made == drawn) continue;
-    prefilter(context.device, ports, map);
-    made = drawn;
+    render::PrefilteredShadows::Made& made =
+        (map.local ? out.madeLocal : out.madeDirectional)[layer];
+    const render::PrefilteredShadows::Made wanted{
+        .drawn = (map.local ? maps.drawnLocal : maps.drawnDirectional)[layer],
+        .side = (map.local ? maps.local : maps.directional).width(),
+        .texels = out.texels,
+        .kernel = kernel};
+    if (params.redraw == Redraw::Changed && made == wanted) continue;
+    prefilter(context.device, params, ports, map);
+    made = wanted;
   }
 }
 

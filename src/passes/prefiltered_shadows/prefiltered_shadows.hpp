@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "graph/pass_info.hpp"
 #include "render/prefiltered_shadows.hpp"
@@ -31,14 +32,16 @@ class PrefilteredShadows {
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  void prefilter(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map);
-  void makeMoments(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
-                   const gpu::Rect& mapRect, const gpu::Rect& viewport);
+  void prefilter(gpu::Device& device, const Params& params, const Ports& ports,
+                 const render::ShadowMaps::Map& map);
+  void makeMoments(gpu::Device& device, Resolution resolution, const gpu::Texture& maps,
+                   const render::ShadowMaps::Map& map, const gpu::Rect& viewport);
   void blur(gpu::Device& device, const gpu::Texture& from, const gpu::Targets& to, ivec2 axis,
             const std::vector<float>& weights);
   void makeLevels(gpu::Device& device, const gpu::Texture& texture, int layer);
 
-  gpu::ProgramPtr moments_, blur_, halve_;
+  std::array<gpu::ProgramPtr, 3> moments_;  // for each Resolution
+  gpu::ProgramPtr blur_, halve_;
   std::array<gpu::Texture, 2> between_;  // as large as the largest map's moments
 };
 

@@ -39,7 +39,7 @@ graph::Pipeline pipelineOf(const Case& c) {
   graph::Pipeline pipeline = testing::rows(
       {"Cull", "GBuffer", "CustomShaders", "ShadowMaps", "PrefilteredShadows", "TiledLighting"});
   for (graph::PassRow& row : pipeline.passes) {
-    if (row.type == "ShadowMaps") row.params["method"] = c.method;
+    if (row.type == "ShadowMaps") row.params = {{"method", c.method}, {"size", std::int64_t{1024}}};
     if (row.type == "PrefilteredShadows") row.params["penumbra"] = c.penumbra;
     if (row.type == "TiledLighting") row.params["shadows"] = std::string("prefiltered");
   }
@@ -83,8 +83,8 @@ INSTANTIATE_TEST_SUITE_P(Of, PrefilteredShadows, ::testing::ValuesIn(cases()),
 
 // Wide kernels take a plane that the light grazes for something bent: its end is in them, too.
 TEST_P(PrefilteredShadows, APlaneDoesNotShadowItself) {
-  for (const float degrees : {0.f, 0.007f, 20.f, 45.f, 70.f, 85.f, 89.f})
-    for (const std::int64_t kernel : {1, 5, 11, 23}) {
+  for (const float degrees : {0.f, 20.f, 70.f, 85.f, 89.f})
+    for (const std::int64_t kernel : {1, 5, 23}) {
       if (kernel > 5 && degrees > 70.f) continue;
       scene::Scene scene = testing::emptyScene();
       testing::addWall(scene, kWall);
