@@ -33,10 +33,12 @@ Stage stageOf(const std::string& type) {
   if (type == "PrefilteredShadows")
     return {{"Cull", "GBuffer", "ShadowMaps", type, "TiledLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "TileLights" || type == "ShadowLayers" || type == "ShadowMask" ||
-      type == "Penumbra" || type == "ShadowBlur")
-    return {{"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask",
-             "Penumbra", "ShadowBlur", "TiledLighting", "ToneMap"},
-            "ToneMap.color"};
+      type == "ShadowTiles" || type == "NearestBlockers" || type == "Penumbra" ||
+      type == "ShadowBlur")
+    return {
+        {"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask", "ShadowTiles",
+         "NearestBlockers", "Penumbra", "ShadowBlur", "TiledLighting", "ToneMap"},
+        "ToneMap.color"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
@@ -56,11 +58,13 @@ Stage stageOf(const std::string& type) {
 graph::Pipeline pipelineOf(const Stage& stage) {
   graph::Pipeline pipeline = testing::rows(stage.rows);
   pipeline.output = stage.value;
-  for (const auto& [maker, shadows] :
-       {std::pair{"ShadowBlur", "layered"}, std::pair{"PrefilteredShadows", "prefiltered"}})
-    if (std::ranges::find(stage.rows, maker) != stage.rows.end())
-      for (graph::PassRow& row : pipeline.passes)
-        if (row.type == "TiledLighting") row.params["shadows"] = std::string(shadows);
+  for (graph::PassRow& row : pipeline.passes) {
+    for (const auto& [maker, shadows] :
+         {std::pair{"ShadowBlur", "layered"}, std::pair{"PrefilteredShadows", "prefiltered"}})
+      if (row.type == "TiledLighting" && std::ranges::find(stage.rows, maker) != stage.rows.end())
+        row.params["shadows"] = std::string(shadows);
+    if (row.type == "Penumbra") row.params["method"] = std::string("minimum");
+  }
   return pipeline;
 }
 
