@@ -47,7 +47,7 @@ float levelOf(float deviation) {
 float penumbraDeviation(ShadowLookup at, float size, float z) {
   vec2 texel = texelSize(at.map, at.w);
   float texelsOfMetre = inversesqrt(texel.x * texel.y), receiver = distanceOf(at.map, at.uvDepth.z);
-  float searched = isDirectional(at.map) ? penumbraWidth(at.map, size, receiver, 0.5 * receiver) : size;
+  float searched = searchedWidth(at.map, size, receiver);
   const float kFewBlockers = 1e-3;
   const float kOfSquare = 0.288675;  // the deviation of a square of side 1
   vec4 moments = momentsAt(at.map, at.uvDepth.xy, levelOf(kOfSquare * searched * texelsOfMetre));

@@ -190,6 +190,44 @@ TEST_P(PrefilteredShadows, WithoutThemLightsHaveHardShadows) {
   EXPECT_FALSE(std::ranges::equal(without.bytes(), with.bytes()));
 }
 
+// The spread of a penumbra over the wall is that of a disc: half its radius at this distance. A
+// spot lamp beside the camera throws the shadow of a half-plane half way to the wall.
+TEST(PrefilteredPenumbra, HasTheDeviationOfADiscs) {
+  constexpr uvec2 kPicture{513, 129};
+  for (const float radius : {0.2f, 0.4f, 0.8f}) {
+    scene::Scene scene = testing::emptyScene();
+    testing::addWall(scene, kWall);
+    testing::addBox(scene, {-20, 0, -0.5f * kWall}, {40, 40, 1e-3f});
+    addLamp(scene, scene::LightKind::Spot, {-1, 0.5f, 0}, {-1, 0.5f, -kWall});
+    scene.lights.back().radius = radius;
+    updateTransforms(scene);
+    graph::Pipeline pipeline =
+        pipelineOf({.name = {}, .kind = {}, .method = "lispsm", .penumbra = "light"});
+    pipeline.passes[3].params["localSize"] = std::int64_t{1024};
+    const auto picture = [&](const graph::Pipeline& rows) {
+      return testing::asFloatRgb(testing::valueOf(scene, rows, kPicture, "TiledLighting.color"));
+    };
+    const Image soft = picture(pipeline), lit = picture(unshadowed());
+    const int y = kPicture.y / 2;
+    const auto share = [&](int x) {
+      return static_cast<double>(soft.pixel<float>(x, y)[1] / lit.pixel<float>(x, y)[1]);
+    };
+    const double aspect = static_cast<double>(kPicture.x) / kPicture.y;
+    const double metre =
+        kPicture.x / (2. * kWall * std::tan(0.5 * scene.cameras[0].fovY) * aspect);  // px
+    double sum = 0, first = 0, second = 0;  // of where the share changes
+    const int middle = kPicture.x / 2;
+    for (int x = middle; x < middle + static_cast<int>(4. * metre); ++x) {  // of the wall's 5 m
+      const double change = share(x + 1) - share(x);
+      sum += change, first += change * x, second += change * x * x;
+    }
+    const double deviation = std::sqrt(second / sum - std::pow(first / sum, 2)) / metre;
+    EXPECT_NEAR(sum, 1., 0.02) << radius;
+    EXPECT_NEAR(deviation, 0.5 * radius, 0.1 * 0.5 * radius) << radius;
+  }
+  testing::expectNoDebugMessages();
+}
+
 // What leaks through two or three cards behind each other, of which the last covers all the light's
 // way: in truth the wall is dark.
 class LightBleeding : public ::testing::TestWithParam<int> {};
