@@ -1,8 +1,8 @@
 // Four moments of the depths around a point, and what they say of a depth: Peters and Klein, "Moment Shadow Mapping",
 // I3D 2015. Depths are within [-1, 1], -1 nearest to the light.
 
-// Of a shadow map's depth, which is reversed: half the range of distances along its axis. lampShare: of lamps, a depth d
-// is at the share lampShare / (d + lampShare) of the farthest distance; not used for directional lights.
+// Of a shadow map's depth, which is reversed: linear in the distance along its axis, 0 half way. lampShare: of lamps, a
+// depth d is at the share lampShare / (d + lampShare) of the farthest distance; not used for directional lights.
 float momentDepth(bool directional, float lampShare, float mapDepth) {
   return directional ? 1.0 - 2.0 * mapDepth : (lampShare - mapDepth) / (lampShare + mapDepth);
 }
@@ -12,18 +12,18 @@ vec4 momentsOf(float z) {
   return vec4(z, squared, z * squared, squared * squared);
 }
 
-// This share of the depths is taken to be spread evenly over the range: more than what rounding of 32-bit floats may do to
-// moments, so that they stay those of some distribution.
+// This share of the depths is taken to be spread evenly over the range: more than what rounding of 32-bit floats may do
+// to moments, so that they stay those of some distribution.
 const float kSpread = 2e-6;
 const vec4 kEvenMoments = vec4(0.0, 1.0 / 3.0, 0.0, 1.0 / 5.0);
 
-// The least share of depths before z that these moments allow: exact where the rest of them are at one depth or two, of
-// which one may be z itself. mean: of those before z; z where there are none.
+// The least share of depths before z that these moments allow, which is all there is where depths are at two places, z
+// perhaps one of them. mean: of those before z; z where there are none.
 //
 // Of all distributions with the moments, the one that has an atom at z and two more has the least before z. In standard
 // deviations from the mean, z is t; with the skewness s, the kurtosis k and D = k - s^2 - 1 the first orthonormal
-// polynomials are 1, x and q(x) / sqrt(D), q(x) = x^2 - s x - 1. Their kernel K(t, x) = 1 + t x + q(t) q(x) / D is zero at
-// the two other atoms, and t weighs 1 / K(t, t); the other two weigh what mass 1 and mean 0 leave.
+// polynomials are 1, x and q(x) / sqrt(D), q(x) = x^2 - s x - 1. Their kernel K(t, x) = 1 + t x + q(t) q(x) / D is zero
+// at the two other atoms, and t weighs 1 / K(t, t); the other two weigh what mass 1 and mean 0 leave.
 struct DepthsBefore {
   float share;
   float mean;

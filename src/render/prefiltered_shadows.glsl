@@ -19,6 +19,7 @@ vec4 momentsAt(ShadowMapValues map, vec2 uv, float level) {
              : textureLod(localMoments, momentPlace(map, uv, textureSize(localMoments, 0).x), level);
 }
 
+#ifdef MOMENT_LEVELS
 // The range of distances along the map's axis that the moments' depths stand for, m.
 float momentRange(ShadowMapValues map) { return isDirectional(map) ? map.axisW.w : map.inner.y / map.inner.z; }
 
@@ -31,44 +32,43 @@ float planeDeviation(ShadowMapValues map, float w, float deviation, vec3 normalW
   return deviation * max(texel.x + map.texel.w * texel.y, texel.y) * slope;
 }
 
-#ifdef MOMENT_LEVELS
-// The level whose places deviate by so much, texels of the map, or else the first. Each level is the one before, blurred
-// by a variance of 3/4 and halved: level l has that of the first and (4^l - 1) / 4 more, in texels of the first; a
-// bilinear tap adds 4^l / 6 in the mean, and a mix of two levels that of their variances.
+// The level whose places deviate by so much, texels of the map; the first at least. Each level is the one before,
+// blurred by a variance of 3/4 and halved: level l has (4^l - 1) / 4 more than the first, in its texels. A bilinear tap
+// adds 4^l / 6 in the mean, and a mix of two levels has that of their variances.
 float levelOf(float deviation) {
-  float wanted = max(deviation * deviation - momentDeviation * momentDeviation, 0.0) / (momentTexels * momentTexels) /
-                 (1.0 / 4.0 + 1.0 / 6.0) + 1.0;
-  float whole = floor(0.5 * log2(wanted));
-  return whole + (wanted * exp2(-2.0 * whole) - 1.0) / 3.0;
+  float more = max(deviation * deviation - momentDeviation * momentDeviation, 0.0) / (momentTexels * momentTexels);
+  float power = more / (1.0 / 4.0 + 1.0 / 6.0) + 1.0;  // 4^l
+  float whole = floor(0.5 * log2(power));
+  return whole + (power * exp2(-2.0 * whole) - 1.0) / 3.0;
 }
 
-// The deviation of a disc's penumbra, texels of the map. The mean blocker is that around the point where the whole light
-// sees those half way, as for searchBlockers(); what the point's own plane adds to them is near to it.
+// The deviation of a disc's penumbra, texels of the map. Blockers are searched in the level as wide as the whole light
+// sees those half way, as by searchBlockers(). The point's own plane may count among them.
 float penumbraDeviation(ShadowLookup at, float size, float z) {
+  const float kOfSquare = 0.288675, kOfDisc = 0.25;  // deviations, as shares of the widths
+  const float kFewBlockers = 1e-3;                   // where hardly any are told, their depth is not
   vec2 texel = texelSize(at.map, at.w);
   float texelsOfMetre = inversesqrt(texel.x * texel.y), receiver = distanceOf(at.map, at.uvDepth.z);
-  float searched = searchedWidth(at.map, size, receiver);
-  const float kFewBlockers = 1e-3;
-  const float kOfSquare = 0.288675;  // the deviation of a square of side 1
-  vec4 moments = momentsAt(at.map, at.uvDepth.xy, levelOf(kOfSquare * searched * texelsOfMetre));
-  DepthsBefore blockers = depthsBefore(moments, z);
+  float searched = kOfSquare * searchedWidth(at.map, size, receiver) * texelsOfMetre;
+  DepthsBefore blockers = depthsBefore(momentsAt(at.map, at.uvDepth.xy, levelOf(searched)), z);
   float mean = mix(z, blockers.mean, blockers.share / (blockers.share + kFewBlockers));
   float blocker = 0.5 * (mean + 1.0) * momentRange(at.map);
-  return 0.25 * penumbraWidth(at.map, size, receiver, blocker) * texelsOfMetre;
+  return kOfDisc * penumbraWidth(at.map, size, receiver, blocker) * texelsOfMetre;
 }
 #endif
 
-// As shadowVisibility(), with shadowReach 0. The point is taken nearer to the light by the deviation of its plane's
-// depths: these then lie a deviation and more behind it, so that with their moments none need be before it.
+// As shadowVisibility(). shadowReach: momentDeviation. Where a point is moved off its plane by their deviation, the
+// plane's depths lie a deviation and more behind it, and with such moments none need be before it. Levels deviate by
+// more: for that the point is moved on towards the light, so that a wide penumbra stays in its place.
 float prefilteredVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
   ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
   if (!at.found) return 1.0;
-  float z = momentDepth(isDirectional(at.map), at.map.inner.z, at.uvDepth.z);
-  float deviation = momentDeviation, level = 0.0;
+  float z = momentDepth(isDirectional(at.map), at.map.inner.z, at.uvDepth.z), level = 0.0;
 #ifdef MOMENT_LEVELS
-  deviation = max(penumbraDeviation(at, lightSize(lights[light]), z), momentDeviation);
+  float deviation = max(penumbraDeviation(at, lightSize(lights[light]), z), momentDeviation);
   level = levelOf(deviation);
+  float more = planeDeviation(at.map, at.w, deviation - momentDeviation, normalW, toLightW);
+  z -= 2.0 * shadowNormalBias * more / momentRange(at.map);
 #endif
-  float gap = shadowNormalBias * planeDeviation(at.map, at.w, deviation - momentDeviation, normalW, toLightW);
-  return 1.0 - depthsBefore(momentsAt(at.map, at.uvDepth.xy, level), z - 2.0 * gap / momentRange(at.map)).share;
+  return 1.0 - depthsBefore(momentsAt(at.map, at.uvDepth.xy, level), z).share;
 }
