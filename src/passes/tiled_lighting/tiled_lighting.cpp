@@ -18,10 +18,9 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
       .help(
           "hard: one comparison with the shadow map; pcf: percentage-closer filtering, the mean of "
           "kernel x kernel comparisons a texel apart; pcss: percentage-closer soft shadows, that "
-          "of "
-          "comparisons all over the penumbra, whose width follows from a search for blockers; "
-          "prefiltered: one tap of what PrefilteredShadows makes; "
-          "layered: what ShadowBlur makes in screen space, hard shadows of lights without a "
+          "of comparisons all over the penumbra, whose width follows from a search for blockers; "
+          "prefiltered: a tap or two of the moments that PrefilteredShadows makes; layered: what "
+          "ShadowBlur makes in screen space, hard shadows of lights without a "
           "layer.");
   d.param("kernel", &Params::kernel)
       .range(1, 47)
