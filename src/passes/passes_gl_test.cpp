@@ -30,6 +30,8 @@ Stage stageOf(const std::string& type) {
             "ToneMap.color"};
   if (type == "ShadowMaps" || type == "TiledLighting")
     return {{"Cull", "GBuffer", "ShadowMaps", "TiledLighting", "ToneMap"}, "ToneMap.color"};
+  if (type == "PrefilteredShadows")
+    return {{"Cull", "GBuffer", "ShadowMaps", type, "TiledLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "TileLights" || type == "ShadowLayers" || type == "ShadowMask" ||
       type == "ShadowTiles" || type == "NearestBlockers" || type == "Penumbra" ||
       type == "ShadowBlur")
@@ -52,13 +54,15 @@ Stage stageOf(const std::string& type) {
   return {{"Cull", "GBuffer", "TiledLighting", type, "ToneMap"}, "ToneMap.color"};
 }
 
-// With layered shadows, if there is who makes them.
+// With layered or prefiltered shadows, if there is who makes them.
 graph::Pipeline pipelineOf(const Stage& stage) {
   graph::Pipeline pipeline = testing::rows(stage.rows);
   pipeline.output = stage.value;
-  const bool layered = std::ranges::find(stage.rows, "ShadowBlur") != stage.rows.end();
   for (graph::PassRow& row : pipeline.passes) {
-    if (layered && row.type == "TiledLighting") row.params["shadows"] = std::string("layered");
+    for (const auto& [maker, shadows] :
+         {std::pair{"ShadowBlur", "layered"}, std::pair{"PrefilteredShadows", "prefiltered"}})
+      if (row.type == "TiledLighting" && std::ranges::find(stage.rows, maker) != stage.rows.end())
+        row.params["shadows"] = std::string(shadows);
     if (row.type == "Penumbra") row.params["method"] = std::string("minimum");
   }
   return pipeline;

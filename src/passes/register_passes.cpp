@@ -12,6 +12,7 @@
 #include "passes/mirrors/mirrors.hpp"
 #include "passes/nearest_blockers/nearest_blockers.hpp"
 #include "passes/penumbra/penumbra.hpp"
+#include "passes/prefiltered_shadows/prefiltered_shadows.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
 #include "passes/shadow_blur/shadow_blur.hpp"
@@ -49,6 +50,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<GBuffer>();
   registry.add<ScreenSpaceAo>();
   registry.add<ShadowMaps>();
+  registry.add<PrefilteredShadows>();
   registry.add<ShadowLayers>();
   registry.add<TileLights>();
   registry.add<ShadowMask>();

@@ -33,6 +33,7 @@ graph::Pipeline softRows(const std::string& shadows) {
   if (shadows == "none") std::erase(types, "ShadowMaps");
   if (shadows == "layered")
     types.insert(types.end() - 1, {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"});
+  if (shadows == "prefiltered") types.insert(types.end() - 1, "PrefilteredShadows");
   graph::Pipeline pipeline = testing::rows(types);
   pipeline.passes.back().params = {
       {"shadows", shadows}, {"kernel", std::int64_t{23}}, {"search", std::int64_t{11}}};
@@ -48,7 +49,7 @@ class SoftShadows : public ::testing::TestWithParam<std::string> {
  protected:
   void TearDown() override { testing::expectNoDebugMessages(); }
 };
-INSTANTIATE_TEST_SUITE_P(By, SoftShadows, ::testing::Values("pcss", "layered"),
+INSTANTIATE_TEST_SUITE_P(By, SoftShadows, ::testing::Values("pcss", "prefiltered", "layered"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST_P(SoftShadows, ArePenumbraeOfTheRightWidth) {

@@ -13,14 +13,14 @@ namespace {
 void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports>& d) {
   using Params = TiledLighting::Params;
   d.param("shadows", &Params::shadows)
-      .choices({"none", "hard", "pcf", "pcss", "layered"})
+      .choices({"none", "hard", "pcf", "pcss", "prefiltered", "layered"})
       .rebuilds(graph::Rebuild::Ports)
       .help(
           "hard: one comparison with the shadow map; pcf: percentage-closer filtering, the mean of "
           "kernel x kernel comparisons a texel apart; pcss: percentage-closer soft shadows, that "
-          "of "
-          "comparisons all over the penumbra, whose width follows from a search for blockers; "
-          "layered: what ShadowBlur makes in screen space, hard shadows of lights without a "
+          "of comparisons all over the penumbra, whose width follows from a search for blockers; "
+          "prefiltered: a tap or two of the moments that PrefilteredShadows makes; layered: what "
+          "ShadowBlur makes in screen space, hard shadows of lights without a "
           "layer.");
   d.param("kernel", &Params::kernel)
       .range(1, 47)
@@ -32,6 +32,10 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
       .choices({"nearest", "filtered"})
       .help("nearest: with one depth; filtered: the hardware's mean of the four around the point.");
   render::describeShadowBias(d, &Params::bias, &Params::normalBias);
+}
+
+bool hasMoments(const TiledLighting::Ports& ports) {
+  return ports.shadowMaps && ports.prefilteredShadows && ports.prefilteredShadows->local;
 }
 
 // Null ports: `shadows` is not layered.
@@ -84,6 +88,10 @@ void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
         .optional()
         .help("What each light sees; without it there are no shadows.");
   }
+  if (d.values().shadows == Shadows::Prefiltered)
+    d.read("prefilteredShadows", &Ports::prefilteredShadows)
+        .optional()
+        .help("Moments of what lights see; without it all lights have hard shadows.");
   if (d.values().shadows == Shadows::Layered) {
     d.read("shadowLayers", &Ports::shadowLayers).optional().help("The layer of each light.");
     d.read("shadowMask", &Ports::shadowMask)
@@ -115,6 +123,8 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Params& p
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
   if (ports.shadowMaps && ports.shadowMaps->seesPanes()) desc.defines["SHADOW_TRANSMISSION"] = "1";
+  if (hasMoments(ports)) desc.defines["PREFILTERED_SHADOWS"] = "1";
+  if (hasMoments(ports) && ports.prefilteredShadows->levels) desc.defines["MOMENT_LEVELS"] = "1";
   if (ports.shadowMaps && filterOf(params.shadows) > 0)
     desc.defines["SHADOW_FILTER"] = std::to_string(filterOf(params.shadows));
   if (hasLayers(ports))
@@ -146,6 +156,7 @@ gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params, c
     rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
   if (ports.shadowMaps)
     render::bindShadowMaps(rendering, *ports.shadowMaps, params.comparison == Comparison::Filtered);
+  if (hasMoments(ports)) render::bindPrefilteredShadows(rendering, *ports.prefilteredShadows);
   if (hasLayers(ports)) {
     rendering.buffer("ShadowLayerBlock", ports.shadowLayers->block);
     rendering.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
@@ -169,6 +180,11 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
     program.set("shadowFilterRadius", params.kernel / 2);
     program.set("shadowSearchRadius", params.search / 2);
     program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
+    if (hasMoments(ports)) {
+      program.set("shadowReach", ports.prefilteredShadows->deviation);
+      program.set("momentDeviation", ports.prefilteredShadows->deviation);
+      program.set("momentTexels", static_cast<float>(ports.prefilteredShadows->texels));
+    }
     program.set("shadowBias", params.bias);
     program.set("shadowNormalBias", params.normalBias);
   }

@@ -8,6 +8,7 @@
 #include "render/gpu_scene.hpp"
 #include "render/layered_shadows.hpp"
 #include "render/light_list.hpp"
+#include "render/prefiltered_shadows.hpp"
 #include "render/shadow_layers.hpp"
 #include "render/shadow_maps.hpp"
 #include "render/tile_lights.hpp"
@@ -17,7 +18,7 @@ namespace lucerna::passes {
 
 class TiledLighting {
  public:
-  enum class Shadows { None, Hard, Pcf, Pcss, Layered };
+  enum class Shadows { None, Hard, Pcf, Pcss, Prefiltered, Layered };
   enum class Comparison { Nearest, Filtered };
   struct Params {
     float ambient = 1.f;
@@ -34,6 +35,7 @@ class TiledLighting {
     graph::In<render::LightList> lights;
     graph::In<render::TileLights> tileLights;
     graph::In<render::ShadowMaps> shadowMaps;
+    graph::In<render::PrefilteredShadows> prefilteredShadows;
     graph::In<render::ShadowLayers> shadowLayers;
     graph::In<render::LayeredShadows> layeredShadows;
     graph::In<gpu::Texture> shadowMask;

@@ -1,9 +1,11 @@
 // What both shaders need for shadows: the surface, and the light that reaches it.
-//   LAYERED_SHADOWS  screen-space shadows of lights that have a layer; as many array layers
-//   ALL_IN_LAYERS    all that throw shadows have one: software rasterisers run both ways of an if
+//   PREFILTERED_SHADOWS  moments of the maps tell, not the maps; MOMENT_LEVELS: see render/prefiltered_shadows.glsl
+//   LAYERED_SHADOWS      screen-space shadows of lights that have a layer; as many array layers
+//   ALL_IN_LAYERS        all that throw shadows have one: software rasterisers run both ways of an if
 #include "render/read_gbuffer.glsl"
 #include "render/plane_normal.glsl"
 #include "render/shading.glsl"
+#include "render/prefiltered_shadows.glsl"
 #include "render/shadows.glsl"
 
 // The pixel's, for lightVisibility().
@@ -68,7 +70,11 @@ float unblockedShare(Surface s, uint light, vec3 toLightW) {
   if (layer >= 0) return layerShares[layer];
 #endif
 #endif
+#ifdef PREFILTERED_SHADOWS
+  return prefilteredVisibility(light, s.positionW, planeNormalW, toLightW);
+#else
   return shadowVisibility(light, s.positionW, planeNormalW, toLightW);
+#endif
 }
 
 vec3 lightVisibility(Surface s, uint light) {
