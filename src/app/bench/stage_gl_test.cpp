@@ -12,8 +12,9 @@ using testing::HasSubstr;
 
 constexpr uvec2 kSize{96, 72};
 
-std::unique_ptr<Stage> open(const std::string& scene, bool plain = false) {
-  StageSettings settings{.render = {}, .plain = plain};
+std::unique_ptr<Stage> open(const std::string& scene, Surfaces surfaces = Surfaces::Own,
+                            Lighting lighting = Lighting::Sun) {
+  StageSettings settings{.render = {}, .lighting = lighting, .surfaces = surfaces};
   settings.render.scene = scene;
   auto stage = Stage::open(settings);
   EXPECT_TRUE(stage) << stage.error().message;
@@ -99,7 +100,7 @@ TEST(Stage, LengthsFollowTheSight) {
 // What makes errors of a technique out of differences from the reference: nothing else differs.
 TEST(Stage, PlainScenesAgreeWithTheReference) {
   for (const char* scene : {"builtin:cornell", "builtin:mirrors"}) {
-    const auto stage = open(scene, true);
+    const auto stage = open(scene, Surfaces::Plain);
     ASSERT_TRUE(stage);
     Chain chain = kDeferred;
     chain.rows.back().settings = {"operator=linear"};

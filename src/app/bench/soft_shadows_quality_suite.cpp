@@ -1,0 +1,6 @@
+#include "app/bench/suite.hpp"
+namespace lucerna::app::bench {
+Suite softShadowsQualitySuite() {
+  return softShadowsSuite();
+}
+}  // namespace lucerna::app::bench

@@ -1,0 +1,351 @@
+// Tables 1 and 2 of system C: frames with soft shadows by method, kernel, size and number of
+// lights; what they look up and hold; and where their time goes.
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "app/bench/lights_per_pixel.hpp"
+#include "app/bench/shadow_methods.hpp"
+#include "app/bench/suite.hpp"
+
+namespace lucerna::app::bench {
+namespace {
+
+constexpr uvec2 kCounted{160, 90};  // px at which lights are counted
+constexpr uvec2 kSmall{640, 360}, kMiddle{1280, 720}, kLarge{1920, 1080};
+
+// Whether maps are drawn in every frame.
+const std::string kRedrawn = "redrawn", kKept = "kept";
+const std::array kMaps{kRedrawn, kKept};
+const std::string kStep = "step_";  // before a row's name: its ms
+
+const std::string kAlone = "lighting alone", kHard = "hard", kPcss = "pcss 5+11",
+                  kWidePcss = "pcss 5+23", kLayered = "layered 5+11", kWideLayered = "layered 5+23",
+                  kWidestLayered = "layered 5+47";
+// Where not all methods are drawn: by number of lights, and quickly.
+const std::vector<std::string> kMain{kAlone, kHard, "pcf 11", kPcss, kLayered};
+const std::vector<std::string> kOfBars{kAlone,   kHard,        kPcss,         kWidePcss,
+                                       kLayered, kWideLayered, kWidestLayered};
+
+// The hall of table 1, and the same with lamps that reach so far only that the spheres around what
+// they reach fit four layers, as in system C.
+const std::string kHall = "16 lights", kApart = "16 lights apart";
+
+std::string ofLights(int count) {
+  return fmt::format("{} light{}", count, count == 1 ? "" : "s");
+}
+
+SceneChoice hallOf(int lights, std::vector<uvec2> sizes, bool quick = true) {
+  return {.name = ofLights(lights),
+          .path = fmt::format("builtin:atrium?lights={}", lights),
+          .sizes = std::move(sizes),
+          .quickSizes = {kSmall},
+          .quick = quick};
+}
+
+std::vector<SceneChoice> scenes() {
+  std::vector<SceneChoice> all{hallOf(16, {kSmall, kMiddle, kLarge}),
+                               {.name = kApart,
+                                .path = "builtin:atrium?reach=5",
+                                .sizes = {kMiddle, kLarge},
+                                .quickSizes = {kLarge}},
+                               hallOf(1, {kSmall, kMiddle, kLarge}),
+                               hallOf(4, {kSmall, kMiddle, kLarge}),
+                               hallOf(8, {kSmall, kLarge}, false),
+                               hallOf(12, {kSmall, kLarge}, false),
+                               hallOf(32, {kSmall}, false),
+                               hallOf(64, {kSmall, kMiddle})};
+  all.front().quickSizes = {kSmall, kLarge};
+  return all;
+}
+
+bool isSeries(const std::string& scene) {
+  return scene.ends_with(" lights") || scene == ofLights(1);
+}
+
+std::vector<std::string> methodsFor(const Run& run, uvec2 size) {
+  const bool ofTable = !isSeries(run.scene) || run.scene == kHall;
+  if (!ofTable || size == kSmall) return kMain;
+  return run.results.context.quick ? kOfBars : shadowMethodNames();
+}
+
+Variant variantOf(const Run& run, const std::string& method, const std::string& maps, uvec2 size) {
+  const ShadowFrame frame{.conflicts = run.scene == kApart ? "spheres" : "tiles",
+                          .afterLighting = {{"Background"}, {"ToneMap"}}};
+  Variant variant{.chain = chainOf(shadowMethod(method), frame), .size = size};
+  if (shadowMethod(method).shadows())
+    variant.settings = {{"ShadowMaps", "redraw", maps == kRedrawn ? "always" : "changed"}};
+  return variant;
+}
+
+// Where the time of a frame goes whose maps are redrawn, and what it looks up, holds and draws.
+// lights: that reach each pixel.
+Status measureOnce(Run& run, const Name& name, const Variant& redrawn,
+                   const std::vector<double>& lights) {
+  Variant variant = redrawn;
+  variant.profiled = true;
+  LUCERNA_TRY(number, run.stage.add(variant));
+  LUCERNA_TRY(sample, run.stage.draw(number));
+  Measurement& m = run.results.at(name);
+  for (const graph::StepProfile& step : sample.profile.steps) m.count(kStep + step.row, step.gpuMs);
+  double mean = 0;
+  for (const double count : lights) mean += count / static_cast<double>(lights.size());
+  m.count("taps", shadowMethod(name[2]).taps.at(mean, sample.shadowLayers));
+  m.count("lights_median", quantileOf(lights, 0.5));
+  m.count("lights_p99", quantileOf(lights, 0.99));
+  m.count("texture_mib", static_cast<double>(sample.textureBytes) / (1 << 20));
+  m.count("shadow_texels", static_cast<double>(sample.shadowTexels));
+  m.count("layers", sample.shadowLayers);
+  m.count("lights_beyond", sample.lightsBeyond);
+  return {};
+}
+
+Status measureSize(Run& run, uvec2 size, const std::vector<double>& lights, double share) {
+  const auto nameOf = [&](const std::string& method, const std::string& maps) {
+    return Name{sizeName(size), maps, method, run.scene};
+  };
+  const std::vector<std::string> methods = methodsFor(run, size);
+  for (const std::string& method : methods)
+    for (const std::string& maps : kMaps)
+      run.add(nameOf(method, maps), variantOf(run, method, maps, size));
+  LUCERNA_TRY_VOID(
+      run.takeTurns({.take =
+                         [&](const Name& name, const Sample& sample) {
+                           Measurement& m = run.results.at(name);
+                           m.add(sample.realMs, sample.cpuMs);
+                           m.count("draws", static_cast<double>(sample.counters.draws));
+                           m.count("primitives", static_cast<double>(sample.counters.primitives));
+                         }},
+                    share));
+  for (const std::string& method : methods)
+    if (const Name name = nameOf(method, kRedrawn); run.results.find(name))
+      LUCERNA_TRY_VOID(measureOnce(run, name, variantOf(run, method, kRedrawn, size), lights));
+  run.clear();
+  return {};
+}
+
+// Measurements are named by size, maps, method and scene.
+Status measure(Run& run) {
+  const double share = 1.0 / static_cast<double>(run.cameras.size() * run.extent.sizes.size());
+  for (const SeededCamera& camera : run.cameras) {
+    LUCERNA_TRY_VOID(run.stage.look(camera.pose));
+    const std::vector<double> lights =
+        lightsPerPixel(run.stage.scene(), run.stage.view(kCounted), kCounted);
+    for (const uvec2 size : run.extent.sizes)
+      LUCERNA_TRY_VOID(measureSize(run, size, lights, share));
+  }
+  return {};
+}
+
+std::vector<std::string> methodsOf(const Results& results, const std::string& size) {
+  return results.parts(2, {size});
+}
+
+std::vector<std::string> scenesOf(const Results& results, const std::string& size) {
+  std::vector<std::string> scenes = results.parts(3, {size});
+  std::ranges::stable_sort(scenes, {}, [](const std::string& scene) {
+    return isSeries(scene) ? std::stoi(scene) : std::numeric_limits<int>::max();
+  });
+  return scenes;
+}
+
+Table timesTable(const Results& results, const std::string& size, const std::string& maps) {
+  return tableOf(fmt::format("{}, maps {}, ms: median (quartiles)", size, maps), "method",
+                 methodsOf(results, size), scenesOf(results, size),
+                 [&](const std::string& method, const std::string& scene) {
+                   return spreadText(results.times({size, maps, method, scene}));
+                 });
+}
+
+Table countsTable(const Results& results, const std::string& size, const std::string& scene) {
+  const std::string taps = "taps a pixel", draws = "draws, redrawn", kept = "draws, kept",
+                    texels = "texels of maps, millions", layers = "layers",
+                    beyond = "lights beyond", bytes = "textures, MiB";
+  std::vector<std::string> methods = methodsOf(results, size);
+  std::erase_if(methods, [&](const std::string& method) {
+    return !results.find({size, kRedrawn, method, scene});
+  });
+  const auto reaching = [&](const char* counter) {
+    return numberText(
+        spreadOf(results.samples({size, kRedrawn, methods.front(), scene}, counter)).median);
+  };
+  return tableOf(fmt::format("{}, {}: {} lights reach a pixel in the median, {} the 99th "
+                             "percentile",
+                             size, scene, reaching("lights_median"), reaching("lights_p99")),
+                 "method", methods, {taps, texels, layers, beyond, bytes, draws, kept},
+                 [&](const std::string& method, const std::string& column) {
+                   const auto median = [&](const std::string& maps, const char* counter) {
+                     return spreadOf(results.samples({size, maps, method, scene}, counter)).median;
+                   };
+                   if (column == draws) return fmt::format("{:.0f}", median(kRedrawn, "draws"));
+                   if (column == kept) return fmt::format("{:.0f}", median(kKept, "draws"));
+                   if (column == layers) return fmt::format("{:.0f}", median(kRedrawn, "layers"));
+                   if (column == beyond)
+                     return fmt::format("{:.0f}", median(kRedrawn, "lights_beyond"));
+                   if (column == taps) return numberText(median(kRedrawn, "taps"));
+                   if (column == bytes) return numberText(median(kRedrawn, "texture_mib"));
+                   return numberText(median(kRedrawn, "shadow_texels") * 1e-6);
+                 });
+}
+
+BarPlot stepsPlot(const Results& results, const std::string& size, const std::string& scene) {
+  BarPlot plot{.title = fmt::format("Where a frame with maps redrawn goes, {}, {}", size, scene),
+               .unit = "ms"};
+  for (const std::string& method : methodsOf(results, size)) {
+    const Measurement* m = results.find({size, kRedrawn, method, scene});
+    if (!m) continue;
+    plot.rows.push_back(method);
+    for (const Counter& counter : m->counters)
+      if (counter.name.starts_with(kStep) &&
+          std::ranges::find(plot.parts, counter.name.substr(kStep.size())) == plot.parts.end())
+        plot.parts.push_back(counter.name.substr(kStep.size()));
+  }
+  for (const std::string& method : plot.rows) {
+    std::vector<double>& values = plot.values.emplace_back();
+    for (const std::string& part : plot.parts)
+      values.push_back(
+          spreadOf(results.samples({size, kRedrawn, method, scene}, kStep + part)).median);
+  }
+  return plot;
+}
+
+Table stepsTable(const BarPlot& plot) {
+  Table table{.title = plot.title + ", ms", .head = {"method"}};
+  table.head.insert(table.head.end(), plot.parts.begin(), plot.parts.end());
+  for (std::size_t i = 0; i < plot.rows.size(); ++i) {
+    table.rows.push_back({plot.rows[i]});
+    for (const double ms : plot.values[i]) table.rows.back().push_back(numberText(ms));
+  }
+  return table;
+}
+
+// What issues ask for: frames of one method over those of another, turn by turn.
+struct Bar {
+  std::string what, over, under, maps;
+  double bound;
+  bool atLeast;
+  std::string paper;
+};
+const std::vector<Bar> kBars{
+    {"pcss / layered, kernel 11", kPcss, kLayered, kRedrawn, 1.8, true, "1.67"},
+    {"pcss / layered, kernel 23", kWidePcss, kWideLayered, kRedrawn, 3, true, "2.8"},
+    {"pcss / layered, kernel 11", kPcss, kLayered, kKept, 3, true, "-"},
+    {"pcss / layered, kernel 23", kWidePcss, kWideLayered, kKept, 6, true, "-"},
+    {"layered / hard, kernel 11", kLayered, kHard, kRedrawn, 1.3, false, "1.37"},
+    {"layered, kernel 23 / 11", kWideLayered, kLayered, kRedrawn, 1.06, false, "1.11"},
+    {"layered, kernel 47 / 11", kWidestLayered, kLayered, kRedrawn, 1.15, false, "-"}};
+
+std::string barText(double bound, bool atLeast) {
+  return fmt::format("{} {:.2f}", atLeast ? "at least" : "at most", bound);
+}
+
+std::string verdict(double measured, double bound, bool atLeast) {
+  return (atLeast ? measured >= bound : measured <= bound) ? "met" : "missed";
+}
+
+Table barsTable(const Results& results, const std::string& size, const std::string& scene) {
+  Table table{
+      .title = fmt::format("Ratios of whole frames, {}, {}: median (quartiles)", size, scene),
+      .head = {"frames", "maps", "measured", "wanted", "", "system C, on its GPU"}};
+  for (const Bar& bar : kBars) {
+    const std::vector<double> ratios =
+        results.ratios({size, bar.maps, bar.over, scene}, {size, bar.maps, bar.under, scene});
+    if (ratios.empty()) continue;
+    table.rows.push_back({bar.what, bar.maps, spreadText(ratios), barText(bar.bound, bar.atLeast),
+                          verdict(spreadOf(ratios).median, bar.bound, bar.atLeast), bar.paper});
+  }
+  return table;
+}
+
+std::vector<std::string> seriesOf(const Results& results, const std::string& size) {
+  std::vector<std::string> scenes = scenesOf(results, size);
+  std::erase_if(scenes, [](const std::string& scene) { return !isSeries(scene); });
+  return scenes;
+}
+
+double slopeFor(const Results& results, const std::string& size, const std::string& maps,
+                const std::string& method) {
+  std::vector<glm::dvec2> points;
+  for (const std::string& scene : seriesOf(results, size))
+    if (const auto times = results.times({size, maps, method, scene}); !times.empty())
+      points.emplace_back(std::stoi(scene), spreadOf(times).median);
+  return slopeOf(points);
+}
+
+constexpr double kSlopeBound = 0.4;
+
+Table slopesTable(const Results& results, const std::string& size) {
+  const std::vector<std::string> scenes = seriesOf(results, size);
+  Table table{.title = fmt::format("{}: ms for one light more, least squares over {} to {}", size,
+                                   scenes.front(), scenes.back()),
+              .head = {"maps", kPcss, kLayered, "layered / pcss", "wanted", ""}};
+  for (const std::string& maps : kMaps) {
+    const double pcss = slopeFor(results, size, maps, kPcss),
+                 layered = slopeFor(results, size, maps, kLayered), ratio = layered / pcss;
+    table.rows.push_back({maps, numberText(pcss), numberText(layered), fmt::format("{:.2f}", ratio),
+                          barText(kSlopeBound, false), verdict(ratio, kSlopeBound, false)});
+  }
+  return table;
+}
+
+LinePlot seriesPlot(const Results& results, const std::string& size, const std::string& maps) {
+  LinePlot plot{.title = fmt::format("Frames by number of lights, {}, maps {}", size, maps),
+                .xLabel = "lights",
+                .yLabel = "ms"};
+  for (const std::string& method : kMain) {
+    Curve& curve = plot.curves.emplace_back(Curve{.name = method});
+    for (const std::string& scene : seriesOf(results, size))
+      if (const auto times = results.times({size, maps, method, scene}); !times.empty())
+        curve.points.emplace_back(std::stoi(scene), spreadOf(times).median);
+  }
+  return plot;
+}
+
+const std::string kText =
+    "Whole frames with the maps of all lights redrawn, and with maps that are kept as nothing "
+    "moves. 'pcss 5+11' searches 5 x 5 depths and compares 11 x 11; 'layered 5+11' searches as "
+    "many and blurs by 11 taps an axis. '16 lights apart' is the same hall with lamps that reach "
+    "less far, so that their shadows fit few layers. Taps are looks into shadow maps, masks and "
+    "layers, worked out from the method and from how many lights reach a pixel in the mean, "
+    "whatever early ends spare; a filtered comparison counts as one.";
+
+std::vector<Block> report(const Results& results) {
+  std::vector<Block> blocks{kText};
+  const std::vector<std::string> sizes = results.parts(0);
+  for (const std::string& size : sizes)
+    for (const std::string& scene : scenesOf(results, size))
+      if (Table table = barsTable(results, size, scene);
+          !isSeries(scene) || methodsOf(results, size).size() > kMain.size())
+        if (!table.rows.empty()) blocks.emplace_back(std::move(table));
+  for (const std::string& size : sizes)
+    if (seriesOf(results, size).size() > 1) blocks.emplace_back(slopesTable(results, size));
+  for (const std::string& size : sizes) {
+    for (const std::string& maps : kMaps) blocks.emplace_back(timesTable(results, size, maps));
+    if (seriesOf(results, size).size() > 1)
+      for (const std::string& maps : kMaps) blocks.emplace_back(seriesPlot(results, size, maps));
+    for (const std::string& scene : scenesOf(results, size)) {
+      blocks.emplace_back(countsTable(results, size, scene));
+      const BarPlot plot = stepsPlot(results, size, scene);
+      blocks.emplace_back(stepsTable(plot));
+      blocks.emplace_back(plot);
+    }
+  }
+  return blocks;
+}
+
+}  // namespace
+
+Suite softShadowsSuite() {
+  return {.name = "soft-shadows",
+          .title = "soft shadows, time by method, kernel and lights (tables 1 and 2 of system C)",
+          .scenes = scenes(),
+          .full = {.sizes = {kMiddle, kLarge}, .cameras = 1, .rounds = 5},
+          .quick = {.sizes = {kLarge}, .cameras = 1, .rounds = 2},
+          .lighting = Lighting::Own,
+          .places = Places::Own,
+          .surfaces = Surfaces::Plain,
+          .measure = measure,
+          .report = report};
+}
+
+}  // namespace lucerna::app::bench
