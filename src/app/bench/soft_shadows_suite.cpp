@@ -27,51 +27,61 @@ const std::vector<std::string> kMain{kAlone, kHard, "pcf 11", kPcss, kLayered};
 const std::vector<std::string> kOfBars{kAlone,   kHard,        kPcss,         kWidePcss,
                                        kLayered, kWideLayered, kWidestLayered};
 
-// The hall of table 1, and the same with lamps that reach so far only that the spheres around what
-// they reach fit four layers, as in system C.
-const std::string kHall = "16 lights", kApart = "16 lights apart";
-
 std::string ofLights(int count) {
   return fmt::format("{} light{}", count, count == 1 ? "" : "s");
 }
 
-SceneChoice hallOf(int lights, std::vector<uvec2> sizes, bool quick = true) {
-  return {.name = ofLights(lights),
-          .path = fmt::format("builtin:atrium?lights={}", lights),
-          .sizes = std::move(sizes),
-          .quickSizes = {kSmall},
-          .quick = quick};
-}
-
-std::vector<SceneChoice> scenes() {
-  std::vector<SceneChoice> all{hallOf(16, {kSmall, kMiddle, kLarge}),
-                               {.name = kApart,
-                                .path = "builtin:atrium?reach=5",
-                                .sizes = {kMiddle, kLarge},
-                                .quickSizes = {kLarge}},
-                               hallOf(1, {kSmall, kMiddle, kLarge}),
-                               hallOf(4, {kSmall, kMiddle, kLarge}),
-                               hallOf(8, {kSmall, kLarge}, false),
-                               hallOf(12, {kSmall, kLarge}, false),
-                               hallOf(32, {kSmall}, false),
-                               hallOf(64, {kSmall, kMiddle})};
-  all.front().quickSizes = {kSmall, kLarge};
-  return all;
-}
-
+// One of the scenes that differ in the number of their lights only.
 bool isSeries(const std::string& scene) {
   return scene.ends_with(" lights") || scene == ofLights(1);
 }
 
+// The hall of table 1, and one with point lights that reach so far only that the spheres which they
+// light fit four layers, as in system C.
+const std::string kHall = "16 lights", kApart = "16 lights apart";
+// Where all methods are compared; elsewhere the main ones.
+bool hasTable(const std::string& scene) {
+  return !isSeries(scene) || scene == kHall || scene == ofLights(4);
+}
+
+SceneChoice hallOf(int lights, std::vector<uvec2> sizes, std::vector<uvec2> quickSizes) {
+  return {.name = ofLights(lights),
+          .path = fmt::format("builtin:atrium?lights={}", lights),
+          .sizes = std::move(sizes),
+          .quickSizes = std::move(quickSizes)};
+}
+
+SceneChoice onlyInFull(SceneChoice scene) {
+  scene.quick = false;
+  return scene;
+}
+
+std::vector<SceneChoice> scenes() {
+  const std::vector<uvec2> all{kSmall, kMiddle, kLarge}, small{kSmall}, both{kSmall, kLarge};
+  return {hallOf(16, all, both),
+          {.name = kApart,
+           .path = "builtin:atrium?kind=point&reach=5",
+           .sizes = {kMiddle, kLarge},
+           .quickSizes = {kLarge}},
+          hallOf(1, all, small),
+          hallOf(4, all, both),
+          onlyInFull(hallOf(8, both, {})),
+          onlyInFull(hallOf(12, both, {})),
+          onlyInFull(hallOf(32, small, {})),
+          hallOf(64, {kSmall, kMiddle}, small)};
+}
+
 std::vector<std::string> methodsFor(const Run& run, uvec2 size) {
-  const bool ofTable = !isSeries(run.scene) || run.scene == kHall;
-  if (!ofTable || size == kSmall) return kMain;
+  if (!hasTable(run.scene) || size == kSmall) return kMain;
   return run.results.context.quick ? kOfBars : shadowMethodNames();
 }
 
 Variant variantOf(const Run& run, const std::string& method, const std::string& maps, uvec2 size) {
-  const ShadowFrame frame{.conflicts = run.scene == kApart ? "spheres" : "tiles",
-                          .afterLighting = {{"Background"}, {"ToneMap"}}};
+  ShadowFrame frame{.afterLighting = {{"Background"}, {"ToneMap"}}};
+  if (run.scene == kApart) {
+    frame.mapSize = 512;  // of six for each light
+    frame.conflicts = "spheres";
+  }
   Variant variant{.chain = chainOf(shadowMethod(method), frame), .size = size};
   if (shadowMethod(method).shadows())
     variant.settings = {{"ShadowMaps", "redraw", maps == kRedrawn ? "always" : "changed"}};
@@ -137,8 +147,16 @@ Status measure(Run& run) {
   return {};
 }
 
-std::vector<std::string> methodsOf(const Results& results, const std::string& size) {
-  return results.parts(2, {size});
+// In the order in which they are listed.
+std::vector<std::string> methodsOf(const Results& results, const std::string& size,
+                                   const std::string& scene = "") {
+  const std::vector<std::string> measured = results.parts(2, {size});
+  std::vector<std::string> methods = shadowMethodNames();
+  std::erase_if(methods, [&](const std::string& method) {
+    return scene.empty() ? std::ranges::find(measured, method) == measured.end()
+                         : !results.find({size, kRedrawn, method, scene});
+  });
+  return methods;
 }
 
 std::vector<std::string> scenesOf(const Results& results, const std::string& size) {
@@ -157,54 +175,66 @@ Table timesTable(const Results& results, const std::string& size, const std::str
                  });
 }
 
+double medianOf(const Results& results, const Name& name, const std::string& counter) {
+  return spreadOf(results.samples(name, counter)).median;
+}
+
+// What a frame holds and draws.
+struct Count {
+  std::string head, maps, counter;
+  double scale = 1;
+};
+const std::vector<Count> kCounts{{"taps a pixel", kRedrawn, "taps"},
+                                 {"texels of maps, millions", kRedrawn, "shadow_texels", 1e-6},
+                                 {"layers", kRedrawn, "layers"},
+                                 {"lights beyond them", kRedrawn, "lights_beyond"},
+                                 {"textures, MiB", kRedrawn, "texture_mib"},
+                                 {"draws, redrawn", kRedrawn, "draws"},
+                                 {"draws, kept", kKept, "draws"}};
+
 Table countsTable(const Results& results, const std::string& size, const std::string& scene) {
-  const std::string taps = "taps a pixel", draws = "draws, redrawn", kept = "draws, kept",
-                    texels = "texels of maps, millions", layers = "layers",
-                    beyond = "lights beyond", bytes = "textures, MiB";
-  std::vector<std::string> methods = methodsOf(results, size);
-  std::erase_if(methods, [&](const std::string& method) {
-    return !results.find({size, kRedrawn, method, scene});
-  });
-  const auto reaching = [&](const char* counter) {
-    return numberText(
-        spreadOf(results.samples({size, kRedrawn, methods.front(), scene}, counter)).median);
-  };
-  return tableOf(fmt::format("{}, {}: {} lights reach a pixel in the median, {} the 99th "
-                             "percentile",
-                             size, scene, reaching("lights_median"), reaching("lights_p99")),
-                 "method", methods, {taps, texels, layers, beyond, bytes, draws, kept},
-                 [&](const std::string& method, const std::string& column) {
-                   const auto median = [&](const std::string& maps, const char* counter) {
-                     return spreadOf(results.samples({size, maps, method, scene}, counter)).median;
+  Table table{.title = fmt::format("What frames hold and draw, {}, {}", size, scene),
+              .head = {"method"}};
+  for (const Count& count : kCounts) table.head.push_back(count.head);
+  for (const std::string& method : methodsOf(results, size, scene)) {
+    std::vector<std::string>& row = table.rows.emplace_back(std::vector<std::string>{method});
+    for (const Count& count : kCounts)
+      row.push_back(numberText(
+          count.scale * medianOf(results, {size, count.maps, method, scene}, count.counter)));
+  }
+  return table;
+}
+
+Table overlapTable(const Results& results, const std::string& size) {
+  const std::string median = "lights that reach a pixel, median", most = "99th percentile",
+                    layers = "layers", beyond = "lights beyond them", taps = "taps, ";
+  return tableOf("How lights overlap, " + size, "scene", scenesOf(results, size),
+                 {median, most, layers, beyond, taps + kPcss, taps + kLayered},
+                 [&](const std::string& scene, const std::string& column) {
+                   const auto value = [&](const std::string& method, const std::string& counter) {
+                     return numberText(medianOf(results, {size, kRedrawn, method, scene}, counter));
                    };
-                   if (column == draws) return fmt::format("{:.0f}", median(kRedrawn, "draws"));
-                   if (column == kept) return fmt::format("{:.0f}", median(kKept, "draws"));
-                   if (column == layers) return fmt::format("{:.0f}", median(kRedrawn, "layers"));
-                   if (column == beyond)
-                     return fmt::format("{:.0f}", median(kRedrawn, "lights_beyond"));
-                   if (column == taps) return numberText(median(kRedrawn, "taps"));
-                   if (column == bytes) return numberText(median(kRedrawn, "texture_mib"));
-                   return numberText(median(kRedrawn, "shadow_texels") * 1e-6);
+                   if (column == median) return value(kLayered, "lights_median");
+                   if (column == most) return value(kLayered, "lights_p99");
+                   if (column == layers) return value(kLayered, "layers");
+                   if (column == beyond) return value(kLayered, "lights_beyond");
+                   return value(column.substr(taps.size()), "taps");
                  });
 }
 
 BarPlot stepsPlot(const Results& results, const std::string& size, const std::string& scene) {
   BarPlot plot{.title = fmt::format("Where a frame with maps redrawn goes, {}, {}", size, scene),
-               .unit = "ms"};
-  for (const std::string& method : methodsOf(results, size)) {
-    const Measurement* m = results.find({size, kRedrawn, method, scene});
-    if (!m) continue;
-    plot.rows.push_back(method);
-    for (const Counter& counter : m->counters)
+               .unit = "ms",
+               .rows = methodsOf(results, size, scene)};
+  for (const std::string& method : plot.rows)
+    for (const Counter& counter : results.find({size, kRedrawn, method, scene})->counters)
       if (counter.name.starts_with(kStep) &&
           std::ranges::find(plot.parts, counter.name.substr(kStep.size())) == plot.parts.end())
         plot.parts.push_back(counter.name.substr(kStep.size()));
-  }
   for (const std::string& method : plot.rows) {
     std::vector<double>& values = plot.values.emplace_back();
     for (const std::string& part : plot.parts)
-      values.push_back(
-          spreadOf(results.samples({size, kRedrawn, method, scene}, kStep + part)).median);
+      values.push_back(medianOf(results, {size, kRedrawn, method, scene}, kStep + part));
   }
   return plot;
 }
@@ -214,7 +244,8 @@ Table stepsTable(const BarPlot& plot) {
   table.head.insert(table.head.end(), plot.parts.begin(), plot.parts.end());
   for (std::size_t i = 0; i < plot.rows.size(); ++i) {
     table.rows.push_back({plot.rows[i]});
-    for (const double ms : plot.values[i]) table.rows.back().push_back(numberText(ms));
+    for (const double ms : plot.values[i])
+      table.rows.back().push_back(ms > 0 ? numberText(ms) : "-");
   }
   return table;
 }
@@ -304,32 +335,41 @@ LinePlot seriesPlot(const Results& results, const std::string& size, const std::
 const std::string kText =
     "Whole frames with the maps of all lights redrawn, and with maps that are kept as nothing "
     "moves. 'pcss 5+11' searches 5 x 5 depths and compares 11 x 11; 'layered 5+11' searches as "
-    "many and blurs by 11 taps an axis. '16 lights apart' is the same hall with lamps that reach "
-    "less far, so that their shadows fit few layers. Taps are looks into shadow maps, masks and "
-    "layers, worked out from the method and from how many lights reach a pixel in the mean, "
+    "many and blurs by 11 taps an axis. Scenes are builtin:atrium with that many spot lights; "
+    "'16 lights apart' has point lights that reach 5 m instead, so that their shadows fit four "
+    "layers by the spheres that they light, as in system C. Taps are looks into shadow maps, masks "
+    "and layers, worked out from the method and from how many lights reach a pixel in the mean, "
     "whatever early ends spare; a filtered comparison counts as one.";
+
+void addBars(const Results& results, std::vector<Block>& blocks) {
+  for (const std::string& size : results.parts(0))
+    for (const std::string& scene : scenesOf(results, size))
+      if (results.find({size, kRedrawn, kWidePcss, scene}))
+        blocks.emplace_back(barsTable(results, size, scene));
+  for (const std::string& size : results.parts(0))
+    if (seriesOf(results, size).size() > 1) blocks.emplace_back(slopesTable(results, size));
+}
+
+void addSize(const Results& results, const std::string& size, std::vector<Block>& blocks) {
+  for (const std::string& maps : kMaps) blocks.emplace_back(timesTable(results, size, maps));
+  if (seriesOf(results, size).size() > 1)
+    for (const std::string& maps : kMaps) blocks.emplace_back(seriesPlot(results, size, maps));
+  blocks.emplace_back(overlapTable(results, size));
+  const std::vector<std::string> scenes = scenesOf(results, size);
+  for (const std::string& scene : scenes) {
+    const bool ofTable = results.find({size, kRedrawn, kWidePcss, scene});
+    if (!ofTable && scene != scenes.back()) continue;
+    blocks.emplace_back(countsTable(results, size, scene));
+    const BarPlot plot = stepsPlot(results, size, scene);
+    blocks.emplace_back(stepsTable(plot));
+    blocks.emplace_back(plot);
+  }
+}
 
 std::vector<Block> report(const Results& results) {
   std::vector<Block> blocks{kText};
-  const std::vector<std::string> sizes = results.parts(0);
-  for (const std::string& size : sizes)
-    for (const std::string& scene : scenesOf(results, size))
-      if (Table table = barsTable(results, size, scene);
-          !isSeries(scene) || methodsOf(results, size).size() > kMain.size())
-        if (!table.rows.empty()) blocks.emplace_back(std::move(table));
-  for (const std::string& size : sizes)
-    if (seriesOf(results, size).size() > 1) blocks.emplace_back(slopesTable(results, size));
-  for (const std::string& size : sizes) {
-    for (const std::string& maps : kMaps) blocks.emplace_back(timesTable(results, size, maps));
-    if (seriesOf(results, size).size() > 1)
-      for (const std::string& maps : kMaps) blocks.emplace_back(seriesPlot(results, size, maps));
-    for (const std::string& scene : scenesOf(results, size)) {
-      blocks.emplace_back(countsTable(results, size, scene));
-      const BarPlot plot = stepsPlot(results, size, scene);
-      blocks.emplace_back(stepsTable(plot));
-      blocks.emplace_back(plot);
-    }
-  }
+  addBars(results, blocks);
+  for (const std::string& size : results.parts(0)) addSize(results, size, blocks);
   return blocks;
 }
 
