@@ -1,4 +1,6 @@
 // What shadow maps (render/shadow_maps.hpp) say of a point: how much of a light reaches it.
+//   SHADOW_FILTER  1: percentage-closer filtering, 2: percentage-closer soft shadows; without, a single comparison.
+//                  Software rasterisers run what a uniform switches off, too.
 #include "render/lights.glsl"
 #include "render/view.glsl"
 
@@ -15,9 +17,8 @@ uniform sampler2DArray localShadowDepths;
 uniform float shadowReach = 1.0;
 // Percentage-closer filtering (Reeves, Salesin and Cook, SIGGRAPH 1987) over (2 r + 1)^2 comparisons.
 uniform int shadowFilterRadius = 0;
-// Percentage-closer soft shadows (Fernando, SIGGRAPH 2005 sketches): (2 r + 1)^2 depths are searched for blockers;
-// negative: comparisons are a texel apart, as if all lights had no size.
-uniform int shadowSearchRadius = -1;
+// Percentage-closer soft shadows (Fernando, SIGGRAPH 2005 sketches): (2 r + 1)^2 depths are searched for blockers.
+uniform int shadowSearchRadius = 2;
 // How far a point is moved before it is compared: towards the light in m, and off its surface as a
 // factor on what movedForShadow() finds necessary.
 uniform float shadowBias = 0.0;
@@ -201,11 +202,16 @@ ShadowLookup lookUpShadow(uint light, vec3 positionW, vec3 normalW, vec3 toLight
 float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
   ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
   if (!at.found) return 1.0;
-  if (shadowFilterRadius == 0) return shadowComparison(at.map, at.uvDepth);
+#ifdef SHADOW_FILTER
   vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
-  float size = lightSize(lights[light]);
-  if (shadowSearchRadius >= 0 && size > 0.0) return softShadow(at.map, at.uvDepth, slope, at.w, size);
+#if SHADOW_FILTER == 1
   return filteredShadow(at.map, at.uvDepth, slope, vec2(at.map.texel.z), shadowFilterRadius);
+#else
+  return softShadow(at.map, at.uvDepth, slope, at.w, lightSize(lights[light]));
+#endif
+#else
+  return shadowComparison(at.map, at.uvDepth);
+#endif
 }
 
 // The width of the penumbra of what blocks the light, or part of it, m; 0: nothing does.

@@ -40,6 +40,12 @@ bool hasLayers(const TiledLighting::Ports& ports) {
          ports.layeredShadows->layers > 0;
 }
 
+// SHADOW_FILTER of render/shadows.glsl; 0: without.
+int filterOf(TiledLighting::Shadows shadows) {
+  if (shadows == TiledLighting::Shadows::Pcf) return 1;
+  return shadows == TiledLighting::Shadows::Pcss ? 2 : 0;
+}
+
 }  // namespace
 
 void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
@@ -101,12 +107,15 @@ void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
           "was there.");
 }
 
-const gpu::Program& TiledLighting::programOf(const char* shader, const Ports& ports) {
+const gpu::Program& TiledLighting::programOf(const char* shader, const Params& params,
+                                             const Ports& ports) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = fmt::format("passes/tiled_lighting/{}.frag", shader)};
   if (ports.ambientVisibility) desc.defines["AMBIENT_VISIBILITY"] = "1";
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
+  if (ports.shadowMaps && filterOf(params.shadows) > 0)
+    desc.defines["SHADOW_FILTER"] = std::to_string(filterOf(params.shadows));
   if (hasLayers(ports))
     desc.defines["LAYERED_SHADOWS"] =
         std::to_string(render::arrayLayersOf(ports.layeredShadows->layers));
@@ -148,16 +157,15 @@ gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params, c
 // cost nothing. Depth is tested and read, never written.
 void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Params& params,
                          const Ports& ports, gpu::Blend blend) {
-  const gpu::Program& program = programOf(shader, ports);
+  const gpu::Program& program = programOf(shader, params, ports);
   rendering.use(program, {.depthTest = true,
                           .depthCompare = gpu::Compare::Less,
                           .blend = blend,
                           .cull = gpu::Cull::None});
   program.set("ambientScale", params.ambient);
   if (ports.shadowMaps) {
-    const bool filters = params.shadows == Shadows::Pcf || params.shadows == Shadows::Pcss;
-    program.set("shadowFilterRadius", filters ? params.kernel / 2 : 0);
-    program.set("shadowSearchRadius", params.shadows == Shadows::Pcss ? params.search / 2 : -1);
+    program.set("shadowFilterRadius", params.kernel / 2);
+    program.set("shadowSearchRadius", params.search / 2);
     program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
     program.set("shadowBias", params.bias);
     program.set("shadowNormalBias", params.normalBias);

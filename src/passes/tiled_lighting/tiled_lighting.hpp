@@ -50,7 +50,7 @@ class TiledLighting {
   void draw(gpu::Rendering& rendering, const char* shader, const Params& params, const Ports& ports,
             gpu::Blend blend);
   // The variant for what is bound, compiled when it is first asked for.
-  const gpu::Program& programOf(const char* shader, const Ports& ports);
+  const gpu::Program& programOf(const char* shader, const Params& params, const Ports& ports);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;
