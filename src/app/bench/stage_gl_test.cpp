@@ -120,5 +120,84 @@ TEST(Stage, PlainScenesAgreeWithTheReference) {
   }
 }
 
+TEST(Stage, VariantsOfAChainShareItAndKeepTheirSettings) {
+  const auto stage = open("builtin:cornell");
+  ASSERT_TRUE(stage);
+  const auto variant = [&](double exposure) {
+    return stage->add(
+        {.chain = kDeferred, .size = kSize, .settings = {{"ToneMap", "exposure", exposure}}});
+  };
+  const auto bright = variant(0.0);
+  const auto before = stage->device().objectCounts();
+  const auto dark = variant(-8.0);
+  ASSERT_TRUE(bright && dark);
+  EXPECT_EQ(stage->device().objectCounts(), before);
+  lookFromSomewhere(*stage);
+  Image first, other, again;
+  ASSERT_TRUE(stage->draw(*bright, &first));
+  ASSERT_TRUE(stage->draw(*dark, &other));
+  ASSERT_TRUE(stage->draw(*bright, &again));
+  EXPECT_FALSE(std::ranges::equal(first.bytes(), other.bytes()));
+  EXPECT_TRUE(std::ranges::equal(first.bytes(), again.bytes()));
+  stage->clear();
+  EXPECT_LT(stage->device().objectCounts().textures, before.textures);
+}
+
+TEST(Stage, OwnLightsStayAndCanBeChanged) {
+  const auto stage = open("builtin:penumbra?case=overlap&k=3", Surfaces::Own, Lighting::Own);
+  ASSERT_TRUE(stage);
+  const std::vector<scene::Light> lights = stage->scene().lights;
+  ASSERT_EQ(lights.size(), 3u);
+  const auto variant = stage->add({.chain = kDeferred, .size = kSize});
+  ASSERT_TRUE(variant);
+  lookFromSomewhere(*stage);
+  Image before, changed, after;
+  ASSERT_TRUE(stage->draw(*variant, &before));
+  stage->relight([](scene::Scene& scene) { scene.lights[1].color = vec3(0); });
+  ASSERT_TRUE(stage->draw(*variant, &changed));
+  stage->relight([&](scene::Scene& scene) { scene.lights = lights; });
+  ASSERT_TRUE(stage->draw(*variant, &after));
+  EXPECT_FALSE(std::ranges::equal(before.bytes(), changed.bytes()));
+  EXPECT_TRUE(std::ranges::equal(before.bytes(), after.bytes()));
+}
+
+TEST(Stage, TranslucentSurfacesStayWhereTheyAreWanted) {
+  const auto translucent = [](Surfaces surfaces) {
+    const auto stage = open("builtin:penumbra?case=panes", surfaces);
+    return std::ranges::count_if(stage->scene().objects, [&](const scene::Object& object) {
+      return stage->scene().materials[object.material].alphaMode == scene::AlphaMode::Blend;
+    });
+  };
+  EXPECT_EQ(translucent(Surfaces::Plain), 0);
+  EXPECT_EQ(translucent(Surfaces::PlainAndTranslucent), translucent(Surfaces::Own));
+  EXPECT_GT(translucent(Surfaces::Own), 0);
+}
+
+TEST(Stage, ASampleTellsOfShadows) {
+  const auto stage = open("builtin:penumbra?case=overlap&k=3", Surfaces::Own, Lighting::Own);
+  ASSERT_TRUE(stage);
+  const auto variant = stage->add({.chain = {{{"Cull"},
+                                              {"GBuffer"},
+                                              {"ShadowMaps", {"localSize=64"}},
+                                              {"TileLights"},
+                                              {"ShadowLayers", {"layers=2"}},
+                                              {"ShadowMask"},
+                                              {"Penumbra"},
+                                              {"ShadowBlur"},
+                                              {"TiledLighting", {"shadows=layered"}}}},
+                                   .size = kSize});
+  const auto plain = stage->add({.chain = kDeferred, .size = kSize});
+  ASSERT_TRUE(variant && plain) << (variant ? "" : variant.error().message);
+  ASSERT_TRUE(stage->look(ownCameras(stage->scene(), 1)[0].pose));
+  const auto shadowed = stage->draw(*variant), lit = stage->draw(*plain);
+  ASSERT_TRUE(shadowed && lit);
+  EXPECT_EQ(shadowed->shadowTexels, 3u * 64 * 64);
+  EXPECT_EQ(shadowed->shadowLayers, 2);
+  EXPECT_EQ(shadowed->lightsBeyond, 1);
+  EXPECT_EQ(lit->shadowTexels, 0u);
+  EXPECT_EQ(lit->shadowLayers, 0);
+  EXPECT_GE(shadowed->textureBytes, lit->textureBytes - 64 * 1024 + 3u * 64 * 64 * 4);
+}
+
 }  // namespace
 }  // namespace lucerna::app::bench
