@@ -158,10 +158,10 @@ class Device {
   void upload(const Texture& texture, const Image& image, int layer = 0);
   void generateMipmaps(const Texture& texture);
   void clear(const Texture& texture, vec4 value);  // all of level 0; linear, also in sRGB formats
-  // Whole level 0 of one layer. Rows bottom first as GL stores targets unless flip: flip for what
+  // A whole level of one layer. Rows bottom first as GL stores targets unless flip: flip for what
   // was rendered, not for what was uploaded. Depth and packed floats give F32; 32-bit integers
   // their bits in F32 (read them as<std::uint32_t>()). sRGB formats give the stored, encoded bytes.
-  Image download(const Texture& texture, int layer = 0, bool flip = true);
+  Image download(const Texture& texture, int layer = 0, bool flip = true, int level = 0);
   void copy(const Texture& from, const Texture& to);  // level 0, same desc
   // Where the samples of a multisampled target lie in each pixel: (0, 0) is its lower left corner,
   // (1, 1) its upper right one. In the order of texelFetch() of a sampler2DMS.

@@ -173,13 +173,16 @@ void Device::clear(const Texture& texture, vec4 value) {
   }
 }
 
-Image Device::download(const Texture& texture, int layer, bool flip) {
+Image Device::download(const Texture& texture, int layer, bool flip, int level) {
   checkLayer(texture, layer);
   CHECK(texture.desc().samples == 1, "texture '{}' is multisampled: resolve it first",
         texture.label());
   const Readback source = readback(texture.format());
-  Image image(texture.width(), texture.height(), source.channels, source.type);
-  glGetTextureSubImage(texture.id(), 0, 0, 0, layer, image.width(), image.height(), 1,
+  CHECK(level >= 0 && level < texture.desc().levels, "texture '{}' has no level {}",
+        texture.label(), level);
+  Image image(std::max(texture.width() >> level, 1), std::max(texture.height() >> level, 1),
+              source.channels, source.type);
+  glGetTextureSubImage(texture.id(), level, 0, 0, layer, image.width(), image.height(), 1,
                        source.transfer.layout, source.transfer.type,
                        static_cast<GLsizei>(image.bytes().size()), image.bytes().data());
   return flip ? flippedVertically(image) : image;

@@ -31,10 +31,12 @@ Stage stageOf(const std::string& type) {
   if (type == "ShadowMaps" || type == "TiledLighting")
     return {{"Cull", "GBuffer", "ShadowMaps", "TiledLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "TileLights" || type == "ShadowLayers" || type == "ShadowMask" ||
-      type == "Penumbra" || type == "ShadowBlur")
-    return {{"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask",
-             "Penumbra", "ShadowBlur", "TiledLighting", "ToneMap"},
-            "ToneMap.color"};
+      type == "ShadowTiles" || type == "NearestBlockers" || type == "Penumbra" ||
+      type == "ShadowBlur")
+    return {
+        {"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask", "ShadowTiles",
+         "NearestBlockers", "Penumbra", "ShadowBlur", "TiledLighting", "ToneMap"},
+        "ToneMap.color"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
@@ -54,9 +56,11 @@ Stage stageOf(const std::string& type) {
 graph::Pipeline pipelineOf(const Stage& stage) {
   graph::Pipeline pipeline = testing::rows(stage.rows);
   pipeline.output = stage.value;
-  if (std::ranges::find(stage.rows, "ShadowBlur") != stage.rows.end())
-    for (graph::PassRow& row : pipeline.passes)
-      if (row.type == "TiledLighting") row.params["shadows"] = std::string("layered");
+  const bool layered = std::ranges::find(stage.rows, "ShadowBlur") != stage.rows.end();
+  for (graph::PassRow& row : pipeline.passes) {
+    if (layered && row.type == "TiledLighting") row.params["shadows"] = std::string("layered");
+    if (row.type == "Penumbra") row.params["method"] = std::string("minimum");
+  }
   return pipeline;
 }
 

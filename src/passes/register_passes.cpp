@@ -10,6 +10,7 @@
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/geometry_samples/geometry_samples.hpp"
 #include "passes/mirrors/mirrors.hpp"
+#include "passes/nearest_blockers/nearest_blockers.hpp"
 #include "passes/penumbra/penumbra.hpp"
 #include "passes/save_image/save_image.hpp"
 #include "passes/screen_space_ao/screen_space_ao.hpp"
@@ -17,6 +18,7 @@
 #include "passes/shadow_layers/shadow_layers.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
 #include "passes/shadow_mask/shadow_mask.hpp"
+#include "passes/shadow_tiles/shadow_tiles.hpp"
 #include "passes/show_bvh/show_bvh.hpp"
 #include "passes/show_gbuffer/show_gbuffer.hpp"
 #include "passes/sraa/sraa.hpp"
@@ -50,6 +52,8 @@ void registerPasses(graph::Registry& registry) {
   registry.add<ShadowLayers>();
   registry.add<TileLights>();
   registry.add<ShadowMask>();
+  registry.add<ShadowTiles>();
+  registry.add<NearestBlockers>();
   registry.add<Penumbra>();
   registry.add<ShadowBlur>();
   registry.add<TiledLighting>();

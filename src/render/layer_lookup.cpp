@@ -6,7 +6,7 @@ void bindLayerLookup(gpu::Rendering& rendering, const gpu::Program& program,
                      const LayerLookupParams& params, const LayerLookupPorts& ports) {
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.buffer("LightBlock", ports.lights->block);
-  if (ports.tileLights) rendering.buffer("TileLightBlock", ports.tileLights->block);
+  if (ports.tiled()) rendering.buffer("TileLightBlock", ports.tileLights->block);
   rendering.buffer("ShadowLayerBlock", ports.shadowLayers->block);
   bindShadowMaps(rendering, *ports.shadowMaps, false);
   rendering.texture("depth", *ports.depth, gpu::kNearest);

@@ -29,6 +29,7 @@ struct LayerLookupPorts {
   graph::In<ShadowLayers> shadowLayers;
   graph::In<gpu::Texture> depth, normal;
 
+  bool tiled() const { return tileLights && tileLights->block; }
   // Used; 0 where maps or layers are missing.
   int layers() const { return shadowMaps && shadowLayers ? shadowLayers->count : 0; }
 };

@@ -3,11 +3,11 @@
 namespace lucerna::render {
 
 void fitLayers(gpu::Device& device, gpu::Texture& texture, gpu::Format format,
-               const gpu::Texture& picture, int layers, const char* label) {
+               const gpu::Texture& picture, int scale, int layers, const char* label) {
   const gpu::TextureDesc desc{.kind = gpu::TextureKind::Array2D,
                               .format = format,
-                              .width = (picture.width() + 1) / 2,
-                              .height = (picture.height() + 1) / 2,
+                              .width = (picture.width() + scale - 1) / scale,
+                              .height = (picture.height() + scale - 1) / scale,
                               .layers = arrayLayersOf(layers)};
   if (layers == 0) texture = {};
   if (layers > 0 && (!texture || !(texture.desc() == desc)))

@@ -1,5 +1,6 @@
-// Screen-space shadows in layers (render/shadow_layers.hpp), at half the picture's size: texel (x,
-// y) stands for the picture's pixel (2x, 2y). Layer l lies in channel l % 4 of array layer l / 4.
+// Screen-space shadows in layers (render/shadow_layers.hpp), at the picture's size or half of it:
+// texel (x, y) stands for the picture's pixel (scale x, scale y), scale being 1 or 2. Layer l lies
+// in channel l % 4 of array layer l / 4.
 #pragma once
 
 #include "gpu/device.hpp"
@@ -9,14 +10,14 @@ namespace lucerna::render {
 // How wide penumbrae are on a surface across the light, m; 0: nothing is in the light's way.
 struct Penumbrae {
   static constexpr const char* kPortName = "Penumbrae";
-  int layers = 0;
+  int layers = 0, scale = 2;
   gpu::Texture widths;  // Rgba16Float array; none of no layers
 };
 
 // What share of its light each layer lets through.
 struct LayeredShadows {
   static constexpr const char* kPortName = "LayeredShadows";
-  int layers = 0;
+  int layers = 0, scale = 2;
   gpu::Texture visibility;  // R32Uint array, four unorm bytes; none of no layers
 };
 
@@ -24,10 +25,15 @@ inline int arrayLayersOf(int layers) {
   return (layers + 3) / 4;
 }
 
-// An array with room for that many layers, of half the size of `picture` rounded up; kept if it is
-// one already.
+enum class LayerResolution { Half, Full };
+inline int scaleOf(LayerResolution resolution) {
+  return resolution == LayerResolution::Half ? 2 : 1;
+}
+
+// An array with room for that many layers, of the size of `picture` over scale, rounded up; kept if
+// it is one already.
 void fitLayers(gpu::Device& device, gpu::Texture& texture, gpu::Format format,
-               const gpu::Texture& picture, int layers, const char* label);
+               const gpu::Texture& picture, int scale, int layers, const char* label);
 
 // All its layers as targets.
 gpu::Targets targetsOf(const gpu::Texture& array);

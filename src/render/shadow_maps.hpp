@@ -34,6 +34,7 @@ struct ShadowMaps {
   };
   std::vector<Drawn> drawnDirectional, drawnLocal;  // of each layer
   gpu::Buffer mapBlock, lightBlock;
+  std::uint64_t revision = 0;  // grows when a map is drawn
 };
 
 // Free at each edge of a map, in texels, so that filters of up to nine by nine stay inside it, with

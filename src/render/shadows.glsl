@@ -151,12 +151,16 @@ float lightSize(LightValues light) {
   return light.position.w == 0.0 ? 2.0 * tan(0.5 * light.shape.z) : 2.0 * light.shape.y;
 }
 
-// Blockers half way to the light are searched where the whole light sees them. width: of the penumbra, m.
+// Width on the receiver, m, in which blockers half way to the light lie that hide any of it.
+float searchedWidth(ShadowMapValues map, float size, float receiver) {
+  return isDirectional(map) ? penumbraWidth(map, size, receiver, 0.5 * receiver) : size;
+}
+
+// width: of the penumbra, m.
 Blockers blockersOf(ShadowMapValues map, vec3 uvDepth, vec2 slope, float w, float size, out float width) {
   vec2 uvOfMetre = map.texel.z / texelSize(map, w);
   float receiver = distanceOf(map, uvDepth.z);
-  float searched = isDirectional(map) ? penumbraWidth(map, size, receiver, 0.5 * receiver) : size;
-  vec2 apart = max(0.5 * searched * uvOfMetre, vec2(map.texel.z)) / max(float(shadowSearchRadius), 1.0);
+  vec2 apart = max(0.5 * searchedWidth(map, size, receiver) * uvOfMetre, vec2(map.texel.z)) / max(float(shadowSearchRadius), 1.0);
   Blockers blockers = searchBlockers(map, uvDepth, slope, apart);
   width = blockers.share > 0.0 ? penumbraWidth(map, size, receiver, blockers.distance) : 0.0;
   return blockers;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "passes/nearest_blockers/nearest_blockers.hpp"
 #include "passes/penumbra/penumbra.hpp"
 #include "passes/shadow_layers/shadow_layers.hpp"
 #include "passes/shadow_maps/shadow_maps.hpp"
@@ -37,8 +38,10 @@ gpu::Texture uploaded(const Image& image, gpu::Format format) {
   return texture;
 }
 
-// Of the middle row, m, at half the size.
-std::vector<float> widthsOf(const scene::Scene& scene) {
+using Params = passes::Penumbra::Params;
+
+// Of the middle row, m.
+std::vector<float> widthsOf(const scene::Scene& scene, const Params& params) {
   testing::SceneRenderer renderer(scene);
   auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
                                 {"GBuffer.depth", "GBuffer.normal"});
@@ -64,6 +67,12 @@ std::vector<float> widthsOf(const scene::Scene& scene) {
   layerPorts.shadowLayers.bind(&layers);
   passes::ShadowLayers(testing::device()).execute(context, {}, layerPorts);
 
+  render::NearestBlockers nearest;
+  passes::NearestBlockers::Ports nearestPorts;
+  nearestPorts.shadowMaps.bind(&maps);
+  nearestPorts.nearestBlockers.bind(&nearest);
+  passes::NearestBlockers(testing::device()).execute(context, {}, nearestPorts);
+
   render::Penumbrae penumbrae;
   passes::Penumbra::Ports ports;
   ports.view.bind(&renderer.view);
@@ -72,9 +81,8 @@ std::vector<float> widthsOf(const scene::Scene& scene) {
   ports.shadowLayers.bind(&layers);
   ports.depth.bind(&depth);
   ports.normal.bind(&normal);
+  if (params.method == passes::Penumbra::Method::Minimum) ports.nearestBlockers.bind(&nearest);
   ports.penumbrae.bind(&penumbrae);
-  passes::Penumbra::Params params;
-  params.search = 11;
   passes::Penumbra(testing::device()).execute(context, params, ports);
   EXPECT_EQ(penumbrae.layers, 1);
   const Image image =
@@ -85,13 +93,13 @@ std::vector<float> widthsOf(const scene::Scene& scene) {
   return widths;
 }
 
-TEST(PenumbraWidths, AreThoseOfADiscAndLinearInItsSize) {
+void expectThoseOfADisc(const Params& params) {
   std::vector<double> found;
   const std::vector<float> radii{0.1f, 0.2f, 0.4f, 0.8f};
   for (const float radius : radii) {
     SCOPED_TRACE(radius);
     const scene::Scene scene = halfPlane(radius);
-    const std::vector<float> widths = widthsOf(scene);
+    const std::vector<float> widths = widthsOf(scene, params);
     const float aspect = static_cast<float>(kSize.x) / static_cast<float>(kSize.y);
     const float metres = 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY) * aspect;
     // The middle of the penumbra is as far behind the edge as the lamp is before it.
@@ -105,6 +113,21 @@ TEST(PenumbraWidths, AreThoseOfADiscAndLinearInItsSize) {
                           std::log(static_cast<double>(radii.back() / radii.front()));
   EXPECT_NEAR(exponent, 1., 0.03);
   testing::expectNoDebugMessages();
+}
+
+TEST(PenumbraWidths, OfASearchAreThoseOfADiscAndLinearInItsSize) {
+  Params params;
+  params.search = 11;
+  for (const auto resolution : {render::LayerResolution::Half, render::LayerResolution::Full}) {
+    params.resolution = resolution;
+    expectThoseOfADisc(params);
+  }
+}
+
+TEST(PenumbraWidths, OfNearestBlockersAreThoseOfADiscAndLinearInItsSize) {
+  Params params;
+  params.method = passes::Penumbra::Method::Minimum;
+  expectThoseOfADisc(params);
 }
 
 }  // namespace

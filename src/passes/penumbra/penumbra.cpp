@@ -6,35 +6,70 @@ using gpu::Format;
 
 void Penumbra::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("Penumbra", "Finds how wide penumbrae are, for each layer of screen-space shadows.");
+  d.param("method", &Params::method)
+      .choices({"search", "minimum"})
+      .rebuilds(graph::Rebuild::Ports)
+      .help(
+          "search: by the mean distance of blockers around a point; minimum: by that of the "
+          "nearest "
+          "to the light, from NearestBlockers.");
   d.param("search", &Params::search)
       .range(3, 47)
-      .help("Depths along each side of a light's map that are searched for blockers, odd.");
+      .help("search: depths along each side of a light's map that are read, odd.");
+  d.param("resolution", &Params::resolution)
+      .choices({"half", "full"})
+      .help("Of the picture: half takes every second pixel along each axis.");
+  d.param("variant", &Params::variant)
+      .choices({"mended", "published"})
+      .help("published: as system C has it, with the light's size, in m, as a factor twice.");
   describeLayerLookup(d);
-  d.write("penumbrae", &Ports::penumbrae)
-      .help("Widths in m at half the size; of no layers without maps or layers.");
+  d.read("partlyLit", &Ports::partlyLit)
+      .optional()
+      .help("Lights that have penumbrae in a tile; without it all that reach it may.");
+  if (d.values().method == Method::Minimum)
+    d.read("nearestBlockers", &Ports::nearestBlockers)
+        .optional()
+        .help("Small copies of the maps; without it no layer has penumbrae.");
+  d.write("penumbrae", &Ports::penumbrae).help("Widths in m; of no layers without maps or layers.");
 }
 
-const gpu::Program& Penumbra::programOf(const Ports& ports, int arrayLayers) {
-  gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
-                        .fragment = "passes/penumbra/penumbra.frag",
-                        .defines = {{"ARRAY_LAYERS", std::to_string(arrayLayers)}}};
-  if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
+const gpu::Program& Penumbra::programOf(const Params& params,
+                                        const render::LayerLookupPorts& lookup) {
+  gpu::ProgramDesc desc{
+      .vertex = "gpu/fullscreen.vert",
+      .fragment = "passes/penumbra/penumbra.frag",
+      .defines = {{"ARRAY_LAYERS", std::to_string(render::arrayLayersOf(lookup.layers()))}}};
+  if (params.method == Method::Minimum) desc.defines["NEAREST_BLOCKERS"] = "1";
+  if (lookup.shadowLayers->shared) desc.defines["SHARED_LAYERS"] = "1";
+  if (lookup.tiled()) desc.defines["TILE_LIGHTS"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
   if (!program) program = device_.program(desc);
   return *program;
 }
 
 void Penumbra::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
+  const bool byNearest = params.method == Method::Minimum;
+  render::LayerLookupPorts lookup = ports;
+  if (ports.partlyLit && ports.partlyLit->block) lookup.tileLights = ports.partlyLit;
   render::Penumbrae& out = *ports.penumbrae;
-  out.layers = ports.layers();
-  render::fitLayers(context.device, out.widths, Format::Rgba16Float, *ports.depth, out.layers,
-                    "penumbrae");
+  out.layers = byNearest && !ports.nearestBlockers ? 0 : ports.layers();
+  out.scale = scaleOf(params.resolution);
+  render::fitLayers(context.device, out.widths, Format::Rgba16Float, *ports.depth, out.scale,
+                    out.layers, "penumbrae");
   if (out.layers == 0) return;
   gpu::Rendering rendering = context.device.render(render::targetsOf(out.widths));
-  const gpu::Program& program = programOf(ports, render::arrayLayersOf(out.layers));
+  const gpu::Program& program = programOf(params, lookup);
   rendering.use(program, {.cull = gpu::Cull::None});
-  bindLayerLookup(rendering, program, params, ports);
-  program.set("shadowSearchRadius", params.search / 2);
+  bindLayerLookup(rendering, program, params, lookup);
+  if (byNearest) {
+    rendering.texture("directionalNearestBlockers", ports.nearestBlockers->directional,
+                      gpu::kNearest);
+    rendering.texture("localNearestBlockers", ports.nearestBlockers->local, gpu::kNearest);
+  } else {
+    program.set("shadowSearchRadius", params.search / 2);
+  }
+  program.set("scale", out.scale);
+  program.set("sizeTwice", params.variant == render::LayeredVariant::Published ? 1.f : 0.f);
   rendering.fullscreen();
 }
 

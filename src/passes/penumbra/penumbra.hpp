@@ -1,19 +1,26 @@
-// Penumbra: how wide penumbrae are, for each layer of screen-space shadows, at half the size.
+// Penumbra: how wide penumbrae are, for each layer of screen-space shadows.
 #pragma once
 
 #include <map>
 
 #include "render/layer_lookup.hpp"
 #include "render/layered_shadows.hpp"
+#include "render/nearest_blockers.hpp"
 
 namespace lucerna::passes {
 
 class Penumbra {
  public:
+  enum class Method { Search, Minimum };
   struct Params : render::LayerLookupParams {
+    Method method = Method::Search;
     int search = 5;  // depths along each side, odd
+    render::LayerResolution resolution = render::LayerResolution::Half;
+    render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
   struct Ports : render::LayerLookupPorts {
+    graph::In<render::TileLights> partlyLit;
+    graph::In<render::NearestBlockers> nearestBlockers;
     graph::Out<render::Penumbrae> penumbrae;
   };
 
@@ -22,7 +29,7 @@ class Penumbra {
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  const gpu::Program& programOf(const Ports& ports, int arrayLayers);
+  const gpu::Program& programOf(const Params& params, const render::LayerLookupPorts& lookup);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;

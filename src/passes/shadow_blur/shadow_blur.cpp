@@ -17,11 +17,21 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
       .unit("px")
       .rebuilds(graph::Rebuild::Ports)
       .help("Along each axis nothing farther away counts: larger penumbrae are cut off.");
-  d.param("edgeSlope", &Params::edgeSlope)
-      .range(0.01, 10)
+  d.param("edgeStop", &Params::edgeStop)
+      .range(0.0001, 100)
+      .unit("m")
       .help(
-          "What is farther off a pixel's tangent plane than this share of its distance is another "
-          "surface and does not count.");
+          "What is farther off a pixel's tangent plane than this, and than a pixel is wide there, "
+          "is "
+          "another surface and does not count.");
+  d.param("resolution", &Params::resolution)
+      .choices({"half", "full"})
+      .help("Of the picture: half stands for two pixels along each axis, of which it gathers all.");
+  d.param("variant", &Params::variant)
+      .choices({"mended", "published"})
+      .help(
+          "published: as system C has it, with circles that shrink at grazing angles in place of "
+          "ellipses and with differences of stored depth up to 0.03 in place of edgeStop.");
   // Both axes reach along x, as the second is askew.
   const int halo = 2 * static_cast<int>(std::ceil(d.values().maximumRadius)) + 4;
   d.read("view", &Ports::view).help("The view that the G-buffer was drawn from.");
@@ -39,15 +49,16 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
       .sameSizeAs("depth")
       .halo(halo)
       .help("View-space normal, octahedral.");
-  d.write("layeredShadows", &Ports::layeredShadows)
-      .help("What each layer lets through, at half the size.");
+  d.write("layeredShadows", &Ports::layeredShadows).help("What each layer lets through.");
 }
 
-const gpu::Program& ShadowBlur::programOf(bool first, int arrayLayers) {
+const gpu::Program& ShadowBlur::programOf(const Params& params, bool first, int arrayLayers) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = "passes/shadow_blur/shadow_blur.frag",
                         .defines = {{"ARRAY_LAYERS", std::to_string(arrayLayers)}}};
   if (first) desc.defines["OF_MASK"] = "1";
+  if (params.resolution == render::LayerResolution::Half) desc.defines["HALF_SIZE"] = "1";
+  if (params.variant == render::LayeredVariant::Published) desc.defines["PUBLISHED"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
   if (!program) program = device_.program(desc);
   return *program;
@@ -56,7 +67,8 @@ const gpu::Program& ShadowBlur::programOf(bool first, int arrayLayers) {
 void ShadowBlur::blur(const Params& params, const Ports& ports, bool first,
                       const gpu::Texture& to) {
   gpu::Rendering rendering = device_.render(render::targetsOf(to));
-  const gpu::Program& program = programOf(first, render::arrayLayersOf(ports.penumbrae->layers));
+  const gpu::Program& program =
+      programOf(params, first, render::arrayLayersOf(ports.penumbrae->layers));
   rendering.use(program, {.cull = gpu::Cull::None});
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.texture("penumbrae", ports.penumbrae->widths, gpu::kNearest);
@@ -67,16 +79,18 @@ void ShadowBlur::blur(const Params& params, const Ports& ports, bool first,
   else
     rendering.texture("alongX", along_, gpu::kNearest);
   program.set("taps", params.kernel / 2);
-  program.set("maximumRadius", 0.5f * params.maximumRadius);
-  program.set("edgeSlope", params.edgeSlope);
+  program.set("maximumRadius", params.maximumRadius);
+  program.set("edgeStop", params.edgeStop);
+  program.set("penumbraScale", ports.penumbrae->scale);
   rendering.fullscreen();
 }
 
 void ShadowBlur::execute(graph::PassContext&, const Params& params, const Ports& ports) {
   render::LayeredShadows& out = *ports.layeredShadows;
   out.layers = ports.penumbrae ? ports.penumbrae->layers : 0;
+  out.scale = scaleOf(params.resolution);
   for (gpu::Texture* texture : {&along_, &out.visibility})
-    render::fitLayers(device_, *texture, Format::R32Uint, *ports.depth, out.layers,
+    render::fitLayers(device_, *texture, Format::R32Uint, *ports.depth, out.scale, out.layers,
                       "layered shadows");
   if (out.layers == 0) return;
   blur(params, ports, true, along_);

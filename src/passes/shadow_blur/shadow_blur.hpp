@@ -6,6 +6,7 @@
 
 #include "graph/pass_info.hpp"
 #include "render/layered_shadows.hpp"
+#include "render/shadow_layers.hpp"
 #include "render/view_data.hpp"
 
 namespace lucerna::passes {
@@ -15,7 +16,9 @@ class ShadowBlur {
   struct Params {
     int kernel = 11;             // taps along each axis, odd
     float maximumRadius = 48.f;  // px of the picture
-    float edgeSlope = 0.3f;
+    float edgeStop = 0.05f;      // m
+    render::LayerResolution resolution = render::LayerResolution::Half;
+    render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
   struct Ports {
     graph::In<render::ViewData> view;
@@ -30,7 +33,7 @@ class ShadowBlur {
 
  private:
   void blur(const Params& params, const Ports& ports, bool first, const gpu::Texture& to);
-  const gpu::Program& programOf(bool first, int arrayLayers);
+  const gpu::Program& programOf(const Params& params, bool first, int arrayLayers);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;

@@ -6,12 +6,17 @@
 #include "core/log.hpp"
 
 namespace lucerna::passes {
+namespace {
+
+constexpr int kMostLayers = 32;  // bits of ShadowMask
+
+}  // namespace
 
 void ShadowLayers::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("ShadowLayers",
          "Puts lights whose lit volumes do not meet into one layer of screen-space shadows.");
   d.param("layers", &Params::layers)
-      .range(1, 32)
+      .range(1, kMostLayers)
       .help(
           "Most layers. Lights that none is left for get hard shadows, and a warning names them.");
   d.param("conflicts", &Params::conflicts)
@@ -35,6 +40,11 @@ void ShadowLayers::describe(graph::PassInfo<Params, Ports>& d) {
           "saturation: that whose neighbours have most layers (DSATUR).");
   d.param("sunAlone", &Params::sunAlone)
       .help("Directional lights come first, each in a layer of its own.");
+  d.param("variant", &Params::variant)
+      .choices({"mended", "published"})
+      .help(
+          "published: what system C starts from (its figure 3), one layer for all lights with the "
+          "mean of their penumbrae.");
   d.read("scene", &Ports::scene).help("For the lights' names.");
   d.read("lights", &Ports::lights).help("Lights that are on.");
   d.read("shadowMaps", &Ports::shadowMaps).help("Which of them throw shadows.");
@@ -50,8 +60,8 @@ void ShadowLayers::warnOf(const std::vector<std::string>& beyond, int layers) {
   for (const std::string& name : beyond)
     if (warned_.insert(name).second) names += (names.empty() ? "'" : ", '") + name + "'";
   if (!names.empty())
-    log::warning("ShadowLayers: beyond {} layers {} have hard shadows; layers allows more", layers,
-                 names);
+    log::warning("ShadowLayers: beyond {} layers {} have hard shadows{}", layers, names,
+                 layers < kMostLayers ? "; layers allows more" : "");
 }
 
 OverlapGraph ShadowLayers::overlaps(gpu::Device& device, const Params& params, const Ports& ports,
@@ -87,8 +97,14 @@ void ShadowLayers::execute(graph::PassContext& context, const Params& params, co
       suns.push_back(i);
   }
   render::ShadowLayers& out = *ports.shadowLayers;
-  out.ofLight = colourLights(overlaps(context.device, params, ports, shadowed), shadowed, suns,
-                             params.order, params.layers);
+  out.shared = params.variant == render::LayeredVariant::Published;
+  if (out.shared) {
+    out.ofLight.clear();
+    for (const bool throws : shadowed) out.ofLight.push_back(throws ? 0 : kNoLayer);
+  } else {
+    out.ofLight = colourLights(overlaps(context.device, params, ports, shadowed), shadowed, suns,
+                               params.order, params.layers);
+  }
   out.count = 0;
   std::vector<std::string> beyond;
   for (std::uint32_t i = 0; i < lights.size(); ++i) {

@@ -23,6 +23,7 @@ class ShadowLayers {
     int apart = 48;  // px
     ColourOrder order = ColourOrder::Saturation;
     bool sunAlone = true;
+    render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
   struct Ports {
     graph::In<render::GpuScene> scene;

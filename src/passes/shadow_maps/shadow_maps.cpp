@@ -114,6 +114,7 @@ void ShadowMaps::execute(graph::PassContext& context, const Params& params, cons
     if (params.redraw == Redraw::Changed && drawn == wanted) continue;
     draw(context.device, ports, map, drawings_[i]);
     drawn = wanted;
+    ++out.revision;
   }
 }
 

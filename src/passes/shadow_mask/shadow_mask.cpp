@@ -6,6 +6,11 @@ using gpu::Format;
 
 void ShadowMask::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("ShadowMask", "Finds for each pixel the layers whose light is blocked, a bit for each.");
+  d.param("variant", &Params::variant)
+      .choices({"mended", "published"})
+      .help(
+          "published: as system C unpacks them, the bits of each four layers through a byte of a "
+          "texture, from which those of some patterns come back wrong.");
   describeLayerLookup(d);
   d.write("shadowMask", &Ports::shadowMask)
       .texture(Format::R32Uint)
@@ -14,12 +19,14 @@ void ShadowMask::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Bit l: the light of layer l that reaches this pixel is blocked.");
 }
 
-ShadowMask::ShadowMask(gpu::Device& device) {
+const gpu::Program& ShadowMask::programOf(const Params& params, const Ports& ports) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = "passes/shadow_mask/shadow_mask.frag"};
-  ofAllLights_ = device.program(desc);
-  desc.defines["TILE_LIGHTS"] = "1";
-  ofTiles_ = device.program(desc);
+  if (ports.tiled()) desc.defines["TILE_LIGHTS"] = "1";
+  if (params.variant == render::LayeredVariant::Published) desc.defines["PUBLISHED"] = "1";
+  gpu::ProgramPtr& program = programs_[desc];
+  if (!program) program = device_.program(desc);
+  return *program;
 }
 
 void ShadowMask::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
@@ -27,7 +34,7 @@ void ShadowMask::execute(graph::PassContext& context, const Params& params, cons
       context.device.render({.colors = {{ports.shadowMask.get(), gpu::Load::Clear, vec4(0.f)}},
                              .depth = {ports.depth.get()}});
   if (ports.layers() == 0) return;
-  const gpu::Program& program = ports.tileLights ? *ofTiles_ : *ofAllLights_;
+  const gpu::Program& program = programOf(params, ports);
   rendering.use(program,
                 {.depthTest = true, .depthCompare = gpu::Compare::Less, .cull = gpu::Cull::None});
   bindLayerLookup(rendering, program, params, ports);

@@ -163,6 +163,7 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
                           .blend = blend,
                           .cull = gpu::Cull::None});
   program.set("ambientScale", params.ambient);
+  if (hasLayers(ports)) program.set("layerScale", ports.layeredShadows->scale);
   if (ports.shadowMaps) {
     program.set("shadowFilterRadius", params.kernel / 2);
     program.set("shadowSearchRadius", params.search / 2);

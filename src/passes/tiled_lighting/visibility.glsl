@@ -11,9 +11,13 @@ vec3 planeNormalW;
 
 #ifdef LAYERED_SHADOWS
 #include "render/shadow_layers.glsl"
+#include "render/tangent_plane.glsl"
 
 uniform usampler2D shadowMask;
-uniform usampler2DArray layeredShadows;  // at half the size, four layers in each array layer
+uniform usampler2DArray layeredShadows;  // four layers in each array layer
+uniform int layerScale;                  // px of the picture for each of their texels, 1 or 2
+
+const float kSameSurface = 0.05;  // m off the tangent plane, or as wide as a pixel
 
 // Share of its light that each layer lets through to the pixel.
 float layerShares[4 * LAYERED_SHADOWS];
@@ -21,20 +25,22 @@ float layerShares[4 * LAYERED_SHADOWS];
 // From the four texels around the pixel, those on its surface, weighted by how near they are; if there is none, the
 // mask's bit.
 void readLayers(ivec2 pixel, vec3 positionW) {
-  ivec2 last = textureSize(layeredShadows, 0).xy - 1, texels[4];
-  vec2 odd = 0.5 * vec2(pixel & 1);
-  vec4 weights = vec4((1.0 - odd.x) * (1.0 - odd.y), odd.x * (1.0 - odd.y), (1.0 - odd.x) * odd.y, odd.x * odd.y);
+  ivec2 size = textureSize(layeredShadows, 0).xy, texel = pixel / layerScale;
+  vec2 odd = 0.5 * vec2(pixel & (layerScale - 1));
+  vec3 positionV = (view.viewFromWorld * vec4(positionW, 1.0)).xyz;
+  TangentPlane tangent = tangentPlaneAt(positionV, mat3(view.viewFromWorld) * planeNormalW,
+                                        max(kSameSurface, 2.0 * pixelWidthAt(positionV)));
+  // In the order of textureGather().
+  vec4 weights = vec4((1.0 - odd.x) * odd.y, odd.x * odd.y, odd.x * (1.0 - odd.y), (1.0 - odd.x) * (1.0 - odd.y));
+  ivec2 offsets[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));
   for (int i = 0; i < 4; ++i) {
-    texels[i] = min(pixel / 2 + ivec2(i & 1, i >> 1), last);
-    vec3 away = positionWOf(2 * texels[i]) - positionW;
-    bool same = !isEmpty(2 * texels[i]) && abs(dot(away, planeNormalW)) <= 0.3 * length(away) + 1e-6;
-    if (!same) weights[i] = 0.0;
+    ivec2 other = layerScale * min(texel + offsets[i], size - 1);
+    weights[i] = onPlane(tangent, other, texelFetch(depth, other, 0).r) ? weights[i] : 0.0;
   }
   float sum = dot(weights, vec4(1.0));
   uint mask = texelFetch(shadowMask, pixel, 0).r;
   for (int a = 0; a < LAYERED_SHADOWS; ++a) {
-    uvec4 found;
-    for (int i = 0; i < 4; ++i) found[i] = texelFetch(layeredShadows, ivec3(texels[i], a), 0).r;
+    uvec4 found = textureGather(layeredShadows, vec3((vec2(texel) + 1.0) / vec2(size), a));
     for (int b = 0; b < 4; ++b) {
       float lit = dot(vec4(found >> uint(8 * b) & 255u), weights) / (255.0 * max(sum, 1e-6));
       layerShares[4 * a + b] = sum > 0.0 ? lit : float(~mask >> uint(4 * a + b) & 1u);

@@ -1,0 +1,42 @@
+// What is nearest to the light around a point of a shadow map (render/nearest_blockers.hpp).
+#include "render/shadows.glsl"
+
+uniform sampler2DArray directionalNearestBlockers;
+uniform sampler2DArray localNearestBlockers;
+
+const float kNearestBlock = 8.0;  // texels, side of a block of level 0
+
+float nearestBlock(ShadowMapValues map, ivec2 block, int level) {
+  ivec3 at = ivec3(block, map.place.x);
+  return isDirectional(map) ? texelFetch(directionalNearestBlockers, at, level).r
+                            : texelFetch(localNearestBlockers, at, level).r;
+}
+
+// Reversed depth of what is nearest to the light within `around` of uv (texels of the map), or at most a block's side
+// farther away.
+float nearestDepth(ShadowMapValues map, vec2 uv, vec2 around) {
+  int levels = isDirectional(map) ? textureQueryLevels(directionalNearestBlockers)
+                                  : textureQueryLevels(localNearestBlockers);
+  ivec2 blocks = isDirectional(map) ? textureSize(directionalNearestBlockers, 0).xy
+                                    : textureSize(localNearestBlockers, 0).xy;
+  // Where a block is as wide as the window no more than two lie in it along each side.
+  float wide = 2.0 * max(around.x, around.y) / kNearestBlock;
+  int level = clamp(int(ceil(log2(max(wide, 1.0)))), 0, levels - 1);
+  vec2 texel = uv / map.texel.z;
+  float side = kNearestBlock * exp2(float(level));
+  ivec2 last = max(blocks >> level, ivec2(1)) - 1;
+  ivec2 from = clamp(ivec2(floor((texel - around) / side)), ivec2(0), last);
+  ivec2 to = clamp(ivec2(floor((texel + around) / side)), ivec2(0), last);
+  return max(max(nearestBlock(map, from, level), nearestBlock(map, ivec2(to.x, from.y), level)),
+             max(nearestBlock(map, ivec2(from.x, to.y), level), nearestBlock(map, to, level)));
+}
+
+// As penumbraOf(), by the minimum filter: the nearest blocker stands for all.
+float penumbraOfNearest(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
+  if (!at.found) return 0.0;
+  float size = lightSize(lights[light]), receiver = distanceOf(at.map, at.uvDepth.z);
+  vec2 around = 0.5 * searchedWidth(at.map, size, receiver) / texelSize(at.map, at.w);
+  float nearest = nearestDepth(at.map, at.uvDepth.xy, around);
+  return nearest > at.uvDepth.z ? penumbraWidth(at.map, size, receiver, distanceOf(at.map, nearest)) : 0.0;
+}
