@@ -133,7 +133,7 @@ class BenchTest(unittest.TestCase):
     def test_soft_shadows_have_times_and_counts(self):
         runs, text = self.measured("soft-shadows", *small("penumbra", rounds=3))
         names = [f"soft-shadows/48x36/{maps}/{method}/penumbra_median" for maps in ("redrawn", "kept")
-                 for method in ("lighting alone", "hard", "pcss 5+11", "layered 5+11")]
+                 for method in ("lighting alone", "hard", "pcss 5+11", "layered 11")]
         for name in names:
             self.assertGreater(runs[name]["real_time"], 0)
         alone, hard, pcss, layered = (runs[name] for name in names[:4])
@@ -153,7 +153,7 @@ class BenchTest(unittest.TestCase):
         runs, text = self.measured("soft-shadows-quality", *small("penumbra", size="160x90"))
         scene = "penumbra_median"
         noise, hard, pcss, layered = (runs[f"{begin}{method}/{scene}"]
-                                      for method in ("reference", "hard", "pcss 5+11", "layered 5+11"))
+                                      for method in ("reference", "hard", "pcss 5+11", "layered 11"))
         self.assertLess(noise["flip"], pcss["flip"])
         self.assertLess(pcss["penumbra_flip"], hard["penumbra_flip"])
         self.assertGreater(layered["penumbra_psnr"], hard["penumbra_psnr"])

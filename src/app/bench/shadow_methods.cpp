@@ -28,19 +28,42 @@ ShadowMethod pcss(int search, int kernel) {
           .taps = {.perLight = static_cast<double>(search * search + kernel * kernel)}};
 }
 
-// Each light is looked up once for the mask. At half the size, in every fourth pixel: its blockers
-// are searched, and the two axes of the blur read the mask and the layers. Lighting reads layers.
-ShadowMethod layered(int search, int kernel) {
-  const double share = 0.25;
-  return {.name = fmt::format("layered {}+{}", search, kernel),
-          .rows = {{"ShadowLayers", {"layers=32"}},
-                   {"ShadowMask"},
-                   {"Penumbra", {setting("search", search)}},
-                   {"ShadowBlur", {setting("kernel", kernel)}}},
-          .lighting = lighting("layered"),
-          .taps = {.perLight = 1 + share * search * search,
-                   .perPixel = share * kernel,
-                   .perFourLayers = 1 + share * kernel}};
+// As the pipeline `layered` has it, but for what is named. search: depths along each side, 0: by
+// the minimum filter.
+struct Layered {
+  int kernel = 11, search = 0;
+  bool full = false, published = false;
+};
+
+std::string nameOf(const Layered& layered) {
+  return fmt::format("layered {}{}{}{}", layered.kernel, layered.search > 0 ? ", search" : "",
+                     layered.full ? ", full" : "", layered.published ? ", published" : "");
+}
+
+// Each light is looked up once for the mask. In each pixel of the layers its nearest blocker is
+// read or blockers are searched, and the two axes of the blur read the mask and the layers.
+ShadowTaps tapsOf(const Layered& layered) {
+  const double share = layered.full ? 1 : 0.25, kernel = layered.kernel;
+  const double blockers = layered.search > 0 ? layered.search * layered.search : 1;
+  return {.perLight = 1 + share * blockers,
+          .perPixel = share * kernel,
+          .perFourLayers = 1 + share * kernel};
+}
+
+ShadowMethod layered(const Layered& l) {
+  const std::string resolution = l.full ? "resolution=full" : "resolution=half";
+  ShadowMethod method{.name = nameOf(l), .lighting = lighting("layered"), .taps = tapsOf(l)};
+  method.rows = {{"ShadowLayers", {"layers=32"}}, {"ShadowMask"}, {"ShadowTiles"}};
+  if (l.search == 0) method.rows.push_back({"NearestBlockers"});
+  method.rows.push_back({"Penumbra", l.search > 0
+                                         ? std::vector{std::string("method=search"),
+                                                       setting("search", l.search), resolution}
+                                         : std::vector{std::string("method=minimum"), resolution}});
+  method.rows.push_back({"ShadowBlur", {setting("kernel", l.kernel), resolution}});
+  if (l.published)
+    for (const char* pass : {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"})
+      std::ranges::find(method.rows, pass, &Row::pass)->settings.push_back("variant=published");
+  return method;
 }
 
 const std::vector<ShadowMethod>& methods() {
@@ -53,10 +76,18 @@ const std::vector<ShadowMethod>& methods() {
       pcss(5, 5),
       pcss(5, 11),
       pcss(5, 23),
-      layered(5, 5),
-      layered(5, 11),
-      layered(5, 23),
-      layered(5, 47),
+      layered({.kernel = 5}),
+      layered({.kernel = 11}),
+      layered({.kernel = 23}),
+      layered({.kernel = 47}),
+      layered({.kernel = 5, .full = true}),
+      layered({.kernel = 11, .full = true}),
+      layered({.kernel = 23, .full = true}),
+      layered({.kernel = 11, .search = 5}),
+      layered({.kernel = 5, .search = 5, .full = true}),
+      layered({.kernel = 11, .search = 5, .full = true}),
+      layered({.kernel = 23, .search = 5, .full = true}),
+      layered({.kernel = 11, .published = true}),
   };
   return all;
 }

@@ -29,8 +29,8 @@ struct ShadowMethod {
   bool shadows() const { return taps.perLight > 0; }
 };
 
-// "lighting alone", "hard", "pcf 11", "pcss 5+11" (search and kernel), "layered 5+11", ... Asserts
-// that there is one of that name.
+// "lighting alone", "hard", "pcf 11", "pcss 5+11" (search and kernel), "layered 11" (as the
+// pipeline of that name), "layered 11, search, full", ... Asserts that there is one of that name.
 const ShadowMethod& shadowMethod(std::string_view name);
 std::vector<std::string> shadowMethodNames();
 

@@ -19,8 +19,14 @@ using scene::builtin::PenumbraEdge;
 using scene::builtin::PenumbraOptions;
 
 const std::string kAlone = "lighting alone", kUnblurred = "hard", kPcss = "pcss 5+11",
-                  kLayered = "layered 5+11";
-const std::vector<std::string> kMethods{kUnblurred, "pcf 5", kPcss, kLayered};
+                  kLayered = "layered 11";
+const std::vector<std::string> kMethods{kUnblurred,
+                                        "pcf 5",
+                                        kPcss,
+                                        kLayered,
+                                        "layered 11, search",
+                                        "layered 11, full",
+                                        "layered 11, published"};
 // The reference once more, with other random numbers: what the comparison itself is worth.
 const std::string kNoise = "reference";
 constexpr double kNoiseFactor = 3;  // errors below so many times the noise are not told apart
@@ -307,12 +313,14 @@ void addVariants(Run& run, const ShadowFrame& frame, const std::string& output) 
   }
 }
 
-// Lighting and everything that is there for its shadows, but their maps.
+// Lighting and all that is there for its shadows, but their maps.
 void addFilterTime(Measurement& m, const graph::FrameProfile& profile) {
+  std::vector<std::string> others{"ShadowMaps"};
+  for (const Row& row : chainOf(shadowMethod(kAlone), kFrame).rows)
+    if (row.pass != "TiledLighting") others.push_back(row.pass);
   double real = 0, cpu = 0;
   for (const graph::StepProfile& step : profile.steps)
-    if (step.row == "TiledLighting" || step.row == "ShadowLayers" || step.row == "ShadowMask" ||
-        step.row == "Penumbra" || step.row == "ShadowBlur") {
+    if (std::ranges::find(others, step.row) == others.end()) {
       real += step.gpuMs;
       cpu += step.cpuMs;
     }

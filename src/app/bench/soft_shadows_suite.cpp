@@ -20,8 +20,8 @@ const std::array kMaps{kRedrawn, kKept};
 const std::string kStep = "step_";  // before a row's name: its ms
 
 const std::string kAlone = "lighting alone", kHard = "hard", kPcss = "pcss 5+11",
-                  kWidePcss = "pcss 5+23", kLayered = "layered 5+11", kWideLayered = "layered 5+23",
-                  kWidestLayered = "layered 5+47";
+                  kWidePcss = "pcss 5+23", kLayered = "layered 11", kWideLayered = "layered 23",
+                  kWidestLayered = "layered 47";
 // Where not all methods are drawn: by number of lights, and quickly.
 const std::vector<std::string> kMain{kAlone, kHard, "pcf 11", kPcss, kLayered};
 const std::vector<std::string> kOfBars{kAlone,   kHard,        kPcss,         kWidePcss,
@@ -334,8 +334,12 @@ LinePlot seriesPlot(const Results& results, const std::string& size, const std::
 
 const std::string kText =
     "Whole frames with the maps of all lights redrawn, and with maps that are kept as nothing "
-    "moves. 'pcss 5+11' searches 5 x 5 depths and compares 11 x 11; 'layered 5+11' searches as "
-    "many and blurs by 11 taps an axis. Scenes are builtin:atrium with that many spot lights; "
+    "moves. 'pcss 5+11' searches 5 x 5 depths and compares 11 x 11; 'layered 11' blurs by 11 taps "
+    "an "
+    "axis, as the pipeline of that name: blockers by a minimum filter, layers of half the size; "
+    "'search' searches 5 x 5 depths instead, 'full' has layers of the picture's size, 'published' "
+    "is "
+    "system C with its faults. Scenes are builtin:atrium with that many spot lights; "
     "'16 lights apart' has point lights that reach 5 m instead, so that their shadows fit four "
     "layers by the spheres that they light, as in system C. Taps are looks into shadow maps, masks "
     "and layers, worked out from the method and from how many lights reach a pixel in the mean, "
