@@ -85,6 +85,9 @@ TEST(Workarounds, FollowTheDriverAndCanBeSwitchedOff) {
               ElementsAre("timers-on-cpu-clock"));
   const int warnings = log::warningCount();
   caps.softwareRasterizer = false;
+  caps.name = "NVIDIA GeForce RTX 4070/PCIe/SSE2";
+  EXPECT_THAT(workaroundsFor(caps, ""),
+              ElementsAre("keep-discarded-layers", "no-performance-messages"));
   workaroundsFor(caps, "timers-on-cpu-clock");  // known, though not needed here
   EXPECT_EQ(log::warningCount(), warnings);
   workaroundsFor(caps, "timers-on-gpu-clock");

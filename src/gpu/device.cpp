@@ -120,6 +120,9 @@ Result<std::unique_ptr<Device>> Device::create(Context& context,
   glEnable(GL_DEBUG_OUTPUT);
   glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
   glDebugMessageCallback(onDebugMessage, &impl);
+  if (impl.uses(kNoPerformanceMessages))
+    glDebugMessageControl(GL_DONT_CARE, GL_DEBUG_TYPE_PERFORMANCE, GL_DONT_CARE, 0, nullptr,
+                          GL_FALSE);
   setFixedState();
   glCreateVertexArrays(1, &impl.emptyInput);
   impl.sources = sources ? std::move(sources) : std::make_shared<ShaderSources>();

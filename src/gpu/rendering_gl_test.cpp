@@ -227,8 +227,8 @@ TEST_F(RenderingGlTest, SrgbTargetsEncode) {
     draw(r, program, 0.5f, vec4(0.5f, 0.f, 1.f, 0.5f), {});
   }
   const Image image = device().download(color);
-  EXPECT_NEAR(image.as<std::uint8_t>()[0], 188, 1);  // 187.5; llvmpipe rounds down
-  EXPECT_EQ(image.as<std::uint8_t>()[3], 128);
+  EXPECT_NEAR(image.as<std::uint8_t>()[0], 188, 1);      // 187.5; llvmpipe rounds down
+  EXPECT_NEAR(image.as<std::uint8_t>()[3], 127.5, 0.5);  // either is the nearest
 }
 
 TEST_F(RenderingGlTest, MultiDrawReadsTheBaseInstanceAttribute) {

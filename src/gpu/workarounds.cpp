@@ -12,8 +12,11 @@ std::vector<std::string> workaroundsFor(const Capabilities& capabilities,
   std::vector<std::string> names = {std::string(kKeepDiscardedLayers)};
   if (capabilities.softwareRasterizer)
     names.insert(names.end(), {std::string(kNoAnisotropy), std::string(kTimersOnCpuClock)});
+  if (capabilities.name.starts_with("NVIDIA")) names.emplace_back(kNoPerformanceMessages);
+  std::ranges::sort(names);
   const std::vector<std::string> off = split(disabled, ',');
-  constexpr std::string_view kAll[] = {kKeepDiscardedLayers, kNoAnisotropy, kTimersOnCpuClock};
+  constexpr std::string_view kAll[] = {kKeepDiscardedLayers, kNoAnisotropy, kNoPerformanceMessages,
+                                       kTimersOnCpuClock};
   for (const std::string& name : off)
     if (!name.empty() && std::ranges::count(kAll, name) == 0)
       log::warning("LUCERNA_NO_WORKAROUNDS: found '{}', wanted some of {}", name,

@@ -181,7 +181,8 @@ TEST_F(Generated, ReflectionLooksUpTheCubeMapInTheWorld) {
   const auto seen = [&](vec3 axis, float degrees) {
     node().rotation = glm::angleAxis(glm::radians(degrees), axis);
     updateTransforms(scene_);
-    return shown(scene_, "Forward.color");
+    // Drivers may round down when they store half floats.
+    return glm::round(shown(scene_, "Forward.color") * 1000.f) / 1000.f;
   };
   const vec3 x(1, 0, 0), y(0, 1, 0);
   EXPECT_EQ(seen(y, 0.f), vec3(0, 0, 1)) << "back to the eye, +z";

@@ -102,12 +102,18 @@ TEST_F(CustomShaders, HideAndAreHidden) {
   const Image forward = picture(kForward);
   const int y = forward.height() / 2;
   // From left to right: the wall, the ordinary cube, what the custom cube shows beside it.
-  EXPECT_EQ(testing::colorAt(forward, 1, y), vec3(1, 0, 0));
-  EXPECT_EQ(testing::colorAt(forward, 14, y), vec3(0, 0, 1));
-  EXPECT_EQ(testing::colorAt(forward, 21, y), vec3(0, 1, 0));
+  // But for the last bit: drivers may round 1 down when they store half floats.
+  EXPECT_LT(glm::distance(testing::colorAt(forward, 1, y), vec3(1, 0, 0)), 1e-3f);
+  EXPECT_LT(glm::distance(testing::colorAt(forward, 14, y), vec3(0, 0, 1)), 1e-3f);
+  EXPECT_LT(glm::distance(testing::colorAt(forward, 21, y), vec3(0, 1, 0)), 1e-3f);
   for (const Way& way : {kAfter, kBefore}) {
     const Image deferred = picture(way);
-    EXPECT_TRUE(std::ranges::equal(deferred.bytes(), forward.bytes())) << way.rows[2];
+    float worst = 0.f;
+    for (int row = 0; row < forward.height(); ++row)
+      for (int x = 0; x < forward.width(); ++x)
+        worst = std::max(worst, glm::distance(testing::colorAt(deferred, x, row),
+                                              testing::colorAt(forward, x, row)));
+    EXPECT_LT(worst, 1e-3f) << way.rows[2];
   }
 }
 
