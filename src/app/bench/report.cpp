@@ -123,6 +123,7 @@ std::string spreadText(std::span<const double> samples) {
 std::string worstText(std::span<const double> errors, double Spread::* worst) {
   if (errors.empty()) return "-";
   const Spread spread = spreadOf(errors);
+  if (errors.size() == 1) return numberText(spread.median);
   return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.*worst));
 }
 

@@ -490,11 +490,13 @@ std::optional<double> valueOf(const Results& results, const Bar& bar, const std:
 
 std::string judged(const Results& results, const Bar& bar, const std::string& method) {
   auto value = valueOf(results, bar, method);
-  const auto pcss = valueOf(results, bar, kPcss);
-  if (!value || !pcss) return "-";
-  if (bar.of == Bar::Of::ShareOfPcss) *value /= *pcss;
-  if (bar.of == Bar::Of::AbovePcss) *value -= *pcss;
+  if (!value) return "-";
   if (bar.of == Bar::Of::FromOne) *value = std::abs(*value - 1);
+  if (bar.of == Bar::Of::ShareOfPcss || bar.of == Bar::Of::AbovePcss) {
+    const auto pcss = valueOf(results, bar, kPcss);
+    if (!pcss) return "-";
+    *value = bar.of == Bar::Of::ShareOfPcss ? *value / *pcss : *value - *pcss;
+  }
   const bool met = bar.atLeast ? *value >= bar.bound : *value <= bar.bound;
   return numberText(*value) + (met ? ", met" : ", missed");
 }
