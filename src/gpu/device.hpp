@@ -61,6 +61,7 @@ struct DepthTarget {
 };
 struct Rect {
   int x = 0, y = 0, width = 0, height = 0;
+  bool operator==(const Rect&) const = default;
 };
 struct Targets {
   std::vector<ColorTarget> colors{};
@@ -158,6 +159,8 @@ class Device {
   void upload(const Texture& texture, const Image& image, int layer = 0);
   void generateMipmaps(const Texture& texture);
   void clear(const Texture& texture, vec4 value);  // all of level 0; linear, also in sRGB formats
+  // The same of a square or so in one layer of an array's level 0.
+  void clear(const Texture& texture, vec4 value, int layer, Rect rect);
   // A whole level of one layer. Rows bottom first as GL stores targets unless flip: flip for what
   // was rendered, not for what was uploaded. Depth and packed floats give F32; 32-bit integers
   // their bits in F32 (read them as<std::uint32_t>()). sRGB formats give the stored, encoded bytes.

@@ -148,29 +148,46 @@ void Device::generateMipmaps(const Texture& texture) {
   glGenerateTextureMipmap(texture.id());
 }
 
-void Device::clear(const Texture& texture, vec4 value) {
+namespace {
+
+// Hands the value to clear(layout, type, texel) as the format wants it.
+template <typename Clear>
+void clearWith(const Texture& texture, vec4 value, const Clear& clear) {
   const FormatInfo& format = info(texture.format());
-  const auto clearWith = [&](GLenum layout, GLenum type, const void* texel) {
-    for (int level = 0; level < texture.desc().levels; ++level)
-      glClearTexImage(texture.id(), level, layout, type, texel);
-  };
   if (format.kind == FormatClass::Uint || format.kind == FormatClass::Int) {
     const glm::ivec4 rounded = glm::round(value);
-    clearWith(GL_RGBA_INTEGER, GL_INT, &rounded);
+    clear(GL_RGBA_INTEGER, GL_INT, &rounded);
   } else if (format.format == Format::Depth32FStencil8) {
     const struct {
       float depth;
       std::uint32_t stencil;
     } both{value.x, 0};
-    clearWith(GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &both);
+    clear(GL_DEPTH_STENCIL, GL_FLOAT_32_UNSIGNED_INT_24_8_REV, &both);
   } else if (format.kind == FormatClass::Depth) {
-    clearWith(GL_DEPTH_COMPONENT, GL_FLOAT, &value.x);
+    clear(GL_DEPTH_COMPONENT, GL_FLOAT, &value.x);
   } else {
     // Unlike the clear of a render target, glClearTexImage stores sRGB values as they come.
     if (format.format == Format::Srgb8Alpha8)
       for (int i = 0; i < 3; ++i) value[i] = srgbFromLinear(value[i]);
-    clearWith(GL_RGBA, GL_FLOAT, &value);
+    clear(GL_RGBA, GL_FLOAT, &value);
   }
+}
+
+}  // namespace
+
+void Device::clear(const Texture& texture, vec4 value) {
+  clearWith(texture, value, [&](GLenum layout, GLenum type, const void* texel) {
+    for (int level = 0; level < texture.desc().levels; ++level)
+      glClearTexImage(texture.id(), level, layout, type, texel);
+  });
+}
+
+void Device::clear(const Texture& texture, vec4 value, int layer, Rect rect) {
+  checkLayer(texture, layer);
+  clearWith(texture, value, [&](GLenum layout, GLenum type, const void* texel) {
+    glClearTexSubImage(texture.id(), 0, rect.x, rect.y, layer, rect.width, rect.height, 1, layout,
+                       type, texel);
+  });
 }
 
 Image Device::download(const Texture& texture, int layer, bool flip, int level) {

@@ -15,6 +15,13 @@ struct ViewValues {
   vec4 clipPlaneW;     // gl_ClipDistance[0] of (p, 1), in m; (0, 0, 0, 1): nothing is cut
 };
 
+// Element of the storage block ShadowViewBlock (render/shadow_views.glsl).
+struct ShadowViewValues {
+  ViewValues eye;
+  vec4 depthPlaneW;    // of directional lights: the depth that the map holds
+  uvec4 place;         // layer
+};
+
 // How one material slot reads its texture.
 struct TextureUse {
   vec4 matrix;         // columns of the 2x2 matrix on uv
@@ -69,10 +76,11 @@ struct LightValues {
 // Element of the storage block ShadowMapBlock (render/shadows.glsl).
 struct ShadowMapValues {
   mat4 clipFromWorld;
-  vec4 texel;          // xy: m of a texel at clip-space w of 1; z: 1 / texels of a side; w: shear
+  vec4 texel;          // xy: m of a texel at clip-space w of 1; z: 1 / texels of the map's side; w: shear
   vec4 axisW;          // xyz: unit, towards the light along the map's depth; w: depth's range in m, 0: lamps
   vec4 depthPlaneW;    // of directional lights: the depth that the map holds
   vec4 inner;          // x: part of the map, from its middle, that it is made for; of lamps yz: a map's depth d
                        // is at y / (d + z) m along its axis
-  uvec4 place;         // layer; 1: of the lamps' texture
+  vec4 square;         // in its layer, in parts of the layer's side: xy: lower left corner; z: side
+  uvec4 place;         // layer; 1: of the lamps' texture; 1: sees translucent surfaces
 };

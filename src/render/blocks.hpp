@@ -15,13 +15,15 @@ using glm::vec4;
 
 static_assert(sizeof(ViewValues) == 4 * 64 + 5 * 16);
 static_assert(offsetof(ViewValues, eyeW) == 256);
+static_assert(sizeof(ShadowViewValues) == 4 * 64 + 7 * 16);
 static_assert(sizeof(TextureUse) == 32);
 static_assert(sizeof(MaterialValues) == 512);
 static_assert(offsetof(MaterialValues, albedoUse) == 80);
 static_assert(offsetof(MaterialValues, albedoGeneration) == 304);
 static_assert(sizeof(ObjectValues) == 64 + 4 * 16);
 static_assert(sizeof(LightValues) == 5 * 16);
-static_assert(sizeof(ShadowMapValues) == 64 + 5 * 16);
+static_assert(sizeof(ShadowMapValues) == 64 + 6 * 16);
+static_assert(offsetof(ShadowMapValues, square) == 64 + 4 * 16);
 
 // The fixed part of LightBlock, before its LightValues.
 struct LightHeader {

@@ -51,6 +51,7 @@ void drawList(gpu::Rendering& rendering, const GpuScene& gpuScene, const DrawLis
   if (list.batches.empty()) return;
   rendering.buffer("ObjectBlock", gpuScene.objects);
   rendering.buffer("DrawOrderBlock", list.order);
+  if (!list.views.empty()) rendering.buffer("DrawViewBlock", list.viewOrder);
   for (const DrawBatch& batch : list.batches) {
     const scene::Material& material = gpuScene.scene->materials[batch.material];
     const gpu::Program* program = programOf(material);

@@ -23,11 +23,17 @@ struct DrawBatch {
 };
 
 struct DrawList {
-  std::vector<std::uint32_t> objects;      // in drawing order
+  std::vector<std::uint32_t> objects;  // in drawing order
+  // Of a list that several views share (SHADOW_VIEWS of render/object.vert), that of each object;
+  // objects and pairs of them with views are at most GpuScene::longestList(). Else empty.
+  std::vector<std::uint32_t> views;
+  // What draws the same depth shares a batch: for lists of which only depth is drawn, both sides.
+  bool depthOnly = false;
   bool mirrored = false, clipped = false;  // of the view it is for (scene::View)
   std::vector<DrawBatch> batches;
-  gpu::Buffer commands;  // gpu::IndexedDrawCommand
-  gpu::Buffer order;     // `objects`, as the block DrawOrderBlock (render/object.vert)
+  gpu::Buffer commands;   // gpu::IndexedDrawCommand
+  gpu::Buffer order;      // `objects`, as the block DrawOrderBlock (render/object.vert)
+  gpu::Buffer viewOrder;  // `views`, as DrawViewBlock
 };
 
 struct DrawLists {

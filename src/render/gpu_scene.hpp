@@ -41,7 +41,8 @@ struct GpuScene {
   scene::Bvh bvh;                 // over the objects' boxes; refitted when objects move
   std::vector<MeshRange> meshes;  // as Scene::meshes
   gpu::Buffer vertices, indices;
-  gpu::Buffer listIndices;  // 0, 1, 2, ... one an object
+  gpu::Buffer listIndices;  // 0, 1, 2, ...; one an object, and enough for lists of several views
+  std::size_t longestList() const { return listIndices.bytes() / sizeof(std::uint32_t); }
   gpu::VertexInput input;
   gpu::Buffer objects, materials;  // ObjectBlock, MaterialBlock
   // As Scene::textures, each sRGB or linear as used; empty if nothing uses it. GL's cube maps are

@@ -26,6 +26,23 @@ std::uint32_t cornersOf(gpu::Topology topology) {
   return topology == gpu::Topology::Triangles ? 3 : topology == gpu::Topology::Lines ? 2 : 1;
 }
 
+// What is drawn alike.
+struct BatchKey {
+  std::uint32_t material = scene::kNone;  // none: any that draws depth without a test of alpha
+  bool mirrored = false;
+  gpu::Topology topology = gpu::Topology::Triangles;
+  bool operator==(const BatchKey&) const = default;
+};
+BatchKey batchKey(const GpuScene& gpuScene, const DrawList& list, std::uint32_t index) {
+  const scene::Object& object = gpuScene.scene->objects[index];
+  const scene::Material& material = gpuScene.scene->materials[object.material];
+  const gpu::Topology topology = gpuScene.meshes[object.mesh].topology;
+  if (list.depthOnly && material.alphaMode != scene::AlphaMode::Mask) return {.topology = topology};
+  return {.material = object.material,
+          .mirrored = !list.depthOnly && gpuScene.mirrored[index] != list.mirrored,
+          .topology = topology};
+}
+
 }  // namespace
 
 void sortForState(const GpuScene& gpuScene, std::vector<std::uint32_t>& objects) {
@@ -56,20 +73,24 @@ void sortBackToFront(const GpuScene& gpuScene, const scene::View& view,
 }
 
 void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
+  CHECK(list.objects.size() <= gpuScene.longestList() &&
+            (list.views.empty() || list.views.size() == list.objects.size()),
+        "a list of {} objects and {} views", list.objects.size(), list.views.size());
   list.batches.clear();
   std::vector<gpu::IndexedDrawCommand> commands;
   std::uint32_t lastMesh = scene::kNone;
+  BatchKey lastKey;
   for (std::uint32_t at = 0; at < list.objects.size(); ++at) {
     const std::uint32_t index = list.objects[at];
     const scene::Object& object = gpuScene.scene->objects[index];
     const MeshRange& mesh = gpuScene.meshes[object.mesh];
-    const bool mirrored = gpuScene.mirrored[index] != list.mirrored;
-    if (list.batches.empty() || list.batches.back().material != object.material ||
-        list.batches.back().mirrored != mirrored || list.batches.back().topology != mesh.topology)
+    const BatchKey key = batchKey(gpuScene, list, index);
+    if (list.batches.empty() || lastKey != key)
       list.batches.push_back({.material = object.material,
-                              .mirrored = mirrored,
+                              .mirrored = gpuScene.mirrored[index] != list.mirrored,
                               .topology = mesh.topology,
                               .firstCommand = static_cast<std::uint32_t>(commands.size())});
+    lastKey = key;
     DrawBatch& batch = list.batches.back();
     batch.primitives += mesh.indexCount / cornersOf(mesh.topology);
     if (batch.commandCount > 0 && object.mesh == lastMesh) {
@@ -87,6 +108,8 @@ void finishList(gpu::Device& device, const GpuScene& gpuScene, DrawList& list) {
   if (commands.empty()) return;
   device.write(list.commands, std::as_bytes(std::span(commands)), "draw commands");
   device.write(list.order, std::as_bytes(std::span(list.objects)), "DrawOrderBlock");
+  if (!list.views.empty())
+    device.write(list.viewOrder, std::as_bytes(std::span(list.views)), "DrawViewBlock");
 }
 
 void finishList(gpu::Device& device, const GpuScene& gpuScene, const scene::View& view,

@@ -15,18 +15,17 @@ float nearestBlock(ShadowMapValues map, ivec2 block, int level) {
 // Reversed depth of what is nearest to the light within `around` of uv (texels of the map), or at most a block's side
 // farther away.
 float nearestDepth(ShadowMapValues map, vec2 uv, vec2 around) {
-  int levels = isDirectional(map) ? textureQueryLevels(directionalNearestBlockers)
-                                  : textureQueryLevels(localNearestBlockers);
-  ivec2 blocks = isDirectional(map) ? textureSize(directionalNearestBlockers, 0).xy
-                                    : textureSize(localNearestBlockers, 0).xy;
+  // Corners of maps lie between blocks, and no level has blocks larger than the map.
+  int blocks = max(int(1.0 / (kNearestBlock * map.texel.z) + 1e-3), 1);
+  ivec2 corner = ivec2(map.square.xy / map.square.z * float(blocks) + 0.5);
   // Where a block is as wide as the window no more than two lie in it along each side.
   float wide = 2.0 * max(around.x, around.y) / kNearestBlock;
-  int level = clamp(int(ceil(log2(max(wide, 1.0)))), 0, levels - 1);
+  int level = clamp(int(ceil(log2(max(wide, 1.0)))), 0, findMSB(blocks));
   vec2 texel = uv / map.texel.z;
   float side = kNearestBlock * exp2(float(level));
-  ivec2 last = max(blocks >> level, ivec2(1)) - 1;
-  ivec2 from = clamp(ivec2(floor((texel - around) / side)), ivec2(0), last);
-  ivec2 to = clamp(ivec2(floor((texel + around) / side)), ivec2(0), last);
+  ivec2 last = ivec2(blocks >> level) - 1;
+  ivec2 from = (corner >> level) + clamp(ivec2(floor((texel - around) / side)), ivec2(0), last);
+  ivec2 to = (corner >> level) + clamp(ivec2(floor((texel + around) / side)), ivec2(0), last);
   return max(max(nearestBlock(map, from, level), nearestBlock(map, ivec2(to.x, from.y), level)),
              max(nearestBlock(map, ivec2(from.x, to.y), level), nearestBlock(map, to, level)));
 }

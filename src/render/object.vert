@@ -1,7 +1,20 @@
 // Places the scene's vertices: the vertex shader of everything that draws a render::DrawList.
 //   TEXTURE_ENVIRONMENT  for materials with generated coordinates (render/texture_environment.glsl)
 //   CUSTOM_SHADER        for materials with a shader of their own (render/custom_shader.glsl)
+//   SHADOW_VIEWS         instances say which view they are drawn in
+//   SHADOW_LAYERS        and that chooses the layer
 // variant: TEXTURE_ENVIRONMENT=1
+// variant: SHADOW_VIEWS=1
+// variant: SHADOW_VIEWS=1 SHADOW_LAYERS=1
+#ifdef SHADOW_LAYERS
+#extension GL_ARB_shader_viewport_layer_array : require
+#endif
+#ifdef SHADOW_VIEWS
+layout(location = 6) flat out uint viewIndex;
+layout(location = 7) flat out vec4 depthPlaneW;
+layout(std430) readonly buffer DrawViewBlock { uint drawViews[]; };  // of the list's objects
+#endif
+#include "render/shadow_views.glsl"
 #include "render/scene.glsl"
 #include "render/view.glsl"
 
@@ -29,6 +42,13 @@ layout(location = 5) out vec3 objectPositionO;
 
 void main() {
   ObjectValues object = objects[drawOrder[listIndex]];
+#ifdef SHADOW_VIEWS
+  viewIndex = drawViews[listIndex];
+  depthPlaneW = shadowViews[viewIndex].depthPlaneW;
+#endif
+#ifdef SHADOW_LAYERS
+  gl_Layer = int(shadowViews[viewIndex].place.x);
+#endif
   mat3 normalMatrix =
       mat3(object.normalMatrix0.xyz, object.normalMatrix1.xyz, object.normalMatrix2.xyz);
   vec4 position = object.worldFromObject * vec4(positionO, 1.0);

@@ -4,6 +4,11 @@
 //   TEXTURE_ENVIRONMENT  generated coordinates, cube maps, combines other than modulate
 //   EACH_SAMPLE          of a multisampled target: the alpha test is made at each sample, so that the holes'
 //                        edges run through pixels
+//   SHADOW_VIEWS         see render/object.vert
+#ifdef SHADOW_VIEWS
+layout(location = 6) flat in uint viewIndex;
+#endif
+#include "render/shadow_views.glsl"
 #include "render/scene.glsl"
 #include "render/surface.glsl"
 #include "render/view.glsl"

@@ -64,9 +64,9 @@ vec3 ambientReflectance(Surface s) {
 uniform float ambientScale = 1.0;
 
 #ifdef LIGHT_VISIBILITY
-// Share of a light (index as in LightBlock) that reaches the surface. Who defines the macro before
-// including this defines the function after.
-float lightVisibility(Surface s, uint light);
+// Share of a light (index as in LightBlock) that reaches the surface, of each colour. Who defines the
+// macro before including this defines the function after.
+vec3 lightVisibility(Surface s, uint light);
 #endif
 
 vec3 arrivingLight(Surface s, uint light) {

@@ -209,12 +209,20 @@ ShadowProjection directionalProjection(vec3 directionW, std::span<const vec3> bo
   return result;
 }
 
-std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
-                                                std::span<const scene::View> views,
-                                                const Aabb& boxW, float margin) {
-  const vec3 back = -pyramid.axisW, right = anyAcross(back), up = glm::cross(back, right);
-  ShadowProjection result{.viewFromWorld = spaceOf(right, up, back, pyramid.positionW)};
+namespace {
 
+// Axes of a pyramid's view.
+struct PyramidAxes {
+  vec3 back, right, up;
+  explicit PyramidAxes(const LightPyramid& pyramid)
+      : back(-pyramid.axisW), right(anyAcross(back)), up(glm::cross(back, right)) {}
+};
+
+}  // namespace
+
+std::vector<vec3> litBody(const LightPyramid& pyramid, std::span<const scene::View> views,
+                          const Aabb& boxW) {
+  const auto [back, right, up] = PyramidAxes(pyramid);
   std::vector<vec4> planes;
   const auto add = [&](vec3 inward, float distance) {
     inward = glm::normalize(inward);
@@ -222,15 +230,20 @@ std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
   };
   for (const vec3 side : {right, -right, up, -up}) add(side + pyramid.tangent * pyramid.axisW, 0.f);
   if (!std::isinf(pyramid.reach)) add(back, pyramid.reach);
-  const std::vector<vec3> body = visibleBody(views, boxW, planes);
-  if (body.empty()) return std::nullopt;
+  return visibleBody(views, boxW, planes);
+}
+
+ShadowProjection localProjection(const LightPyramid& pyramid, std::span<const vec3> bodyW,
+                                 float margin) {
+  const auto [back, right, up] = PyramidAxes(pyramid);
+  ShadowProjection result{.viewFromWorld = spaceOf(right, up, back, pyramid.positionW)};
 
   const float farthest =
-      along(pyramid.axisW, body).high - glm::dot(pyramid.axisW, pyramid.positionW);
+      along(pyramid.axisW, bodyW).high - glm::dot(pyramid.axisW, pyramid.positionW);
   const float far = std::max(1.001f * farthest, 1e-6f);  // the farthest surfaces lie inside
   const float near = std::clamp(pyramid.near, kNearShare * far, 0.5f * far);
   Range width, height;
-  for (const vec3& point : body) {
+  for (const vec3& point : bodyW) {
     const vec3 p(result.viewFromWorld * vec4(point, 1.f));
     const float distance = std::max(-p.z, near);
     width.grow(std::clamp(p.x / distance, -pyramid.tangent, pyramid.tangent));

@@ -2,7 +2,6 @@
 // scene. No GL.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -75,9 +74,12 @@ struct LightPyramid {
   float near = 0.f;            // m along the axis: nothing nearer is in the map
 };
 
-// Cropped to what the views see of the box inside the pyramid; none if that is nothing.
-std::optional<ShadowProjection> localProjection(const LightPyramid& pyramid,
-                                                std::span<const scene::View> views,
-                                                const Aabb& boxW, float margin);
+// Corners of what the views see of the box inside the pyramid; empty if that is nothing.
+std::vector<vec3> litBody(const LightPyramid& pyramid, std::span<const scene::View> views,
+                          const Aabb& boxW);
+
+// Cropped to the body. margin: as of directionalProjection().
+ShadowProjection localProjection(const LightPyramid& pyramid, std::span<const vec3> bodyW,
+                                 float margin);
 
 }  // namespace lucerna::render

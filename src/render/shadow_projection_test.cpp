@@ -201,24 +201,22 @@ TEST(ShadowProjection, ALampsMapIsCroppedToWhatIsSeen) {
   const std::vector<scene::View> views{streetView()};
   const LightPyramid lamp{
       .positionW = {0, 8, -20}, .axisW = {0, -1, 0}, .tangent = 1.f, .reach = 20.f};
-  const auto projection = localProjection(lamp, views, kBoxW, 0.f);
-  ASSERT_TRUE(projection);
-  EXPECT_LE(projection->side.x, 2.001f);
+  const ShadowProjection projection = localProjection(lamp, litBody(lamp, views, kBoxW), 0.f);
+  EXPECT_LE(projection.side.x, 2.001f);
   for (const vec3 point : {vec3(0, 0, -20), vec3(3, 0, -22), vec3(-3, 1, -24)}) {
-    const vec3 ndc = ndcOf(*projection, point);
+    const vec3 ndc = ndcOf(projection, point);
     EXPECT_LE(std::max(std::abs(ndc.x), std::abs(ndc.y)), 1.f);
     EXPECT_GE(ndc.z, 0.f);
     EXPECT_LT(ndc.z, 1.f);
   }
   const LightPyramid behind{
       .positionW = {0, 8, 15}, .axisW = {0, -1, 0}, .tangent = 0.5f, .reach = 20.f};
-  EXPECT_FALSE(localProjection(behind, views, kBoxW, 0.f));
+  EXPECT_TRUE(litBody(behind, views, kBoxW).empty());
   // Half of what this one lights is beside the picture.
   const LightPyramid beside{
       .positionW = {22, 8, -20}, .axisW = {0, -1, 0}, .tangent = 1.f, .reach = 20.f};
-  const auto cropped = localProjection(beside, views, kBoxW, 0.f);
-  ASSERT_TRUE(cropped);
-  const vec3 seen = ndcOf(*cropped, {15, 0, -20}), unseen = ndcOf(*cropped, {29, 0, -20});
+  const ShadowProjection cropped = localProjection(beside, litBody(beside, views, kBoxW), 0.f);
+  const vec3 seen = ndcOf(cropped, {15, 0, -20}), unseen = ndcOf(cropped, {29, 0, -20});
   EXPECT_LE(std::max(std::abs(seen.x), std::abs(seen.y)), 1.f);
   EXPECT_GT(std::max(std::abs(unseen.x), std::abs(unseen.y)), 1.f);
 }

@@ -1,7 +1,9 @@
 // What shadow maps (render/shadow_maps.hpp) say of a point: how much of a light reaches it.
 //   SHADOW_FILTER  1: percentage-closer filtering, 2: percentage-closer soft shadows; without, a single comparison.
 //                  Software rasterisers run what a uniform switches off, too.
+//   SHADOW_TRANSMISSION  some map sees translucent surfaces, which colour the light
 #include "render/lights.glsl"
+#include "render/transmittance.glsl"
 #include "render/view.glsl"
 
 layout(std430) readonly buffer ShadowMapBlock { ShadowMapValues shadowMaps[]; };
@@ -11,6 +13,13 @@ uniform sampler2DArrayShadow directionalShadowMaps;
 uniform sampler2DArrayShadow localShadowMaps;
 uniform sampler2DArray directionalShadowDepths;  // the same, as they are
 uniform sampler2DArray localShadowDepths;
+
+#ifdef SHADOW_TRANSMISSION
+uniform sampler2DArray directionalPaneHalvings;  // of all panes before what is opaque
+uniform sampler2DArray localPaneHalvings;
+uniform sampler2DArray directionalPaneDepths;    // of the one that is nearest to the light
+uniform sampler2DArray localPaneDepths;
+#endif
 
 // How far from where it is looked up, in texels along each side, the depths lie that a comparison reads: half a texel
 // for the nearest one alone, a whole one for the four of the hardware's mean.
@@ -87,9 +96,16 @@ vec2 depthSlope(ShadowMapValues map, vec3 uvDepth, vec3 positionW, vec3 normalW,
   return area == 0.0 ? vec2(0.0) : slope / area;
 }
 
+// Where the lamps' texture holds a place of a map. Beyond the map's edge all is as at the edge, for another map is
+// there; directional maps fill their layers, and beyond them all is lit.
+vec3 inLayers(ShadowMapValues map, vec2 uv) {
+  float edge = 0.5 * map.texel.z;
+  return vec3(map.square.xy + map.square.z * clamp(uv, edge, 1.0 - edge), float(map.place.x));
+}
+
 float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
-  vec4 at = vec4(uvDepth.xy, float(map.place.x), uvDepth.z);
-  return isDirectional(map) ? texture(directionalShadowMaps, at) : texture(localShadowMaps, at);
+  return isDirectional(map) ? texture(directionalShadowMaps, vec4(uvDepth.xy, float(map.place.x), uvDepth.z))
+                            : texture(localShadowMaps, vec4(inLayers(map, uvDepth.xy), uvDepth.z));
 }
 
 // Depth that a point is compared with beside its own place: its own, or that of its plane where that is nearer to the
@@ -115,8 +131,8 @@ float distanceOf(ShadowMapValues map, float depth) {
 }
 
 float storedDepth(ShadowMapValues map, vec2 uv) {
-  vec3 at = vec3(uv, float(map.place.x));
-  return isDirectional(map) ? texture(directionalShadowDepths, at).r : texture(localShadowDepths, at).r;
+  return isDirectional(map) ? texture(directionalShadowDepths, vec3(uv, float(map.place.x))).r
+                            : texture(localShadowDepths, inLayers(map, uv)).r;
 }
 
 // Of what is nearer to the light around a point.
@@ -217,6 +233,63 @@ float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) 
   return shadowComparison(at.map, at.uvDepth);
 #endif
 }
+
+#ifdef SHADOW_TRANSMISSION
+float storedPaneDepth(ShadowMapValues map, vec2 uv) {
+  return isDirectional(map) ? texture(directionalPaneDepths, vec3(uv, float(map.place.x))).r
+                            : texture(localPaneDepths, inLayers(map, uv)).r;
+}
+
+// Behind the first pane all of them count.
+vec3 storedTransmittance(ShadowMapValues map, vec3 uvDepth) {
+  vec3 halvings = isDirectional(map) ? texture(directionalPaneHalvings, vec3(uvDepth.xy, float(map.place.x))).rgb
+                                     : texture(localPaneHalvings, inLayers(map, uvDepth.xy)).rgb;
+  return storedPaneDepth(map, uvDepth.xy) > uvDepth.z ? afterHalvings(halvings) : vec3(1.0);
+}
+
+vec3 filteredTransmittance(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apart, int radius) {
+  vec3 sum = vec3(0.0);
+  for (int y = -radius; y <= radius; ++y)
+    for (int x = -radius; x <= radius; ++x)
+      sum += storedTransmittance(map, besideIt(uvDepth, slope, vec2(x, y) * apart));
+  float side = 2.0 * float(radius) + 1.0;
+  return sum / (side * side);
+}
+
+// The width of the penumbra of the panes around a point, m.
+float panePenumbra(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 uvOfMetre, float size) {
+  float receiver = distanceOf(map, uvDepth.z), distance = 0.0, count = 0.0;
+  vec2 apart = max(0.5 * searchedWidth(map, size, receiver) * uvOfMetre, vec2(map.texel.z)) /
+               max(float(shadowSearchRadius), 1.0);
+  for (int y = -shadowSearchRadius; y <= shadowSearchRadius; ++y)
+    for (int x = -shadowSearchRadius; x <= shadowSearchRadius; ++x) {
+      vec3 beside = besideIt(uvDepth, slope, vec2(x, y) * apart);
+      float stored = storedPaneDepth(map, beside.xy);
+      if (stored <= beside.z) continue;
+      distance += distanceOf(map, stored);
+      count += 1.0;
+    }
+  return count > 0.0 ? penumbraWidth(map, size, receiver, distance / count) : 0.0;
+}
+
+// What translucent surfaces let through of the light, filtered as shadowVisibility() is.
+vec3 shadowTransmittance(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
+  if (!at.found || at.map.place.z == 0u) return vec3(1.0);
+#ifdef SHADOW_FILTER
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
+  vec2 apart = vec2(at.map.texel.z);
+#if SHADOW_FILTER == 2
+  vec2 uvOfMetre = at.map.texel.z / texelSize(at.map, at.w);
+  float width = panePenumbra(at.map, at.uvDepth, slope, uvOfMetre, lightSize(lights[light]));
+  apart = max(0.5 * width * uvOfMetre, apart) / max(float(shadowFilterRadius), 1.0);
+#endif
+  return filteredTransmittance(at.map, at.uvDepth, slope, apart, shadowFilterRadius);
+#else
+  return storedTransmittance(at.map, at.uvDepth);
+#endif
+}
+#endif
 
 // The width of the penumbra of what blocks the light, or part of it, m; 0: nothing does.
 float penumbraOf(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {

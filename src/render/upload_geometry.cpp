@@ -9,6 +9,8 @@
 namespace lucerna::render {
 namespace {
 
+constexpr std::size_t kListOfSeveralViews = 65536;  // objects of all of them
+
 using Snorm16x4 = std::array<std::int16_t, 4>;
 
 struct Vertex {
@@ -94,7 +96,7 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
     writeVertices(mesh, vertices.data() + gpuScene.meshes[m].baseVertex);
     std::ranges::copy(mesh.elements(), indices.begin() + gpuScene.meshes[m].firstIndex);
   }
-  std::vector<std::uint32_t> listIndices(std::max<std::size_t>(scene.objects.size(), 1));
+  std::vector<std::uint32_t> listIndices(std::max(scene.objects.size(), kListOfSeveralViews));
   std::iota(listIndices.begin(), listIndices.end(), 0u);
 
   gpuScene.vertices = device.createBuffer(std::as_bytes(std::span(vertices)), "vertices");

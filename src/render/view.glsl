@@ -1,7 +1,10 @@
 // The view that is drawn, and positions from its depth.
+//   SHADOW_VIEWS  the view is one of those of render/shadow_views.glsl, which comes before
 #include "render/blocks.glsl"
 
+#ifndef SHADOW_VIEWS
 layout(std140) uniform ViewBlock { ViewValues view; };
+#endif
 
 // A pixel's place in the whole picture, of which a tile shows a window: (0, 0) is the lower left corner.
 // fragCoord as gl_FragCoord gives it (centres are at .5, row 0 is the bottom). Whatever depends on the

@@ -24,20 +24,6 @@ vec4 viewportFromClip(const ViewData& data) {
                       {viewport.width, viewport.height});
 }
 
-blocks::ViewValues viewValues(const ViewData& data) {
-  const scene::View& view = data.view;
-  const vec2 pixels(data.size);
-  return {.viewFromWorld = view.viewFromWorld,
-          .worldFromView = view.worldFromView,
-          .clipFromView = view.clipFromView,
-          .viewFromClip = mat4(glm::inverse(dmat4(view.clipFromView))),
-          .eyeW = view.eyeW(),
-          .size = vec4(pixels, 1.f / pixels),
-          .window = vec4(vec2(data.window.origin), vec2(data.window.size)),
-          .viewportFromClip = viewportFromClip(data),
-          .clipPlaneW = view.clipPlaneW.value_or(vec4(0.f, 0.f, 0.f, 1.f))};
-}
-
 }  // namespace
 
 Frustum frustumW(const scene::View& view, uvec2 size, const Window& window) {
@@ -58,6 +44,20 @@ gpu::Rect viewportOf(uvec2 size, const Window& window, int maxSide) {
   if (picture.x > maxSide) viewport.x = 0, viewport.width = part.x;
   if (picture.y > maxSide) viewport.y = 0, viewport.height = part.y;
   return viewport;
+}
+
+blocks::ViewValues viewValues(const ViewData& data) {
+  const scene::View& view = data.view;
+  const vec2 pixels(data.size);
+  return {.viewFromWorld = view.viewFromWorld,
+          .worldFromView = view.worldFromView,
+          .clipFromView = view.clipFromView,
+          .viewFromClip = mat4(glm::inverse(dmat4(view.clipFromView))),
+          .eyeW = view.eyeW(),
+          .size = vec4(pixels, 1.f / pixels),
+          .window = vec4(vec2(data.window.origin), vec2(data.window.size)),
+          .viewportFromClip = viewportFromClip(data),
+          .clipPlaneW = view.clipPlaneW.value_or(vec4(0.f, 0.f, 0.f, 1.f))};
 }
 
 void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uvec2 size) {

@@ -8,6 +8,10 @@
 
 namespace lucerna::render {
 
+namespace blocks {
+struct ViewValues;  // render/blocks.hpp
+}
+
 // The part of a picture that one rendering shows: all of it, or a tile.
 struct Window {
   ivec2 origin{0};  // px of the picture where the window's lower left corner lies
@@ -34,6 +38,9 @@ struct ViewData {
 // In px from the window's lower left corner: the whole picture, so that a tile is rasterised as the
 // picture is, and its edges are the same. Along a side of more than maxSide px, the window.
 gpu::Rect viewportOf(uvec2 size, const Window& window, int maxSide);
+
+// What ViewBlock holds of it.
+blocks::ViewValues viewValues(const ViewData& data);
 
 // Fills `data` for a view of a picture of the given size; reuses its buffer.
 void updateView(gpu::Device& device, ViewData& data, const scene::View& view, uvec2 size);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -24,6 +25,18 @@ float marginOf(int size) {
 
 float strengthOf(const scene::PlacedLight& light) {
   return std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+}
+
+// Of the picture's shorter side that the lamp's reach may fill, in the view where that is most.
+float shareOf(const scene::PlacedLight& light, std::span<const scene::View> views) {
+  float share = 0.f;
+  for (const scene::View& view : views) {
+    const float distance = glm::distance(light.positionW, view.positionW());
+    if (std::isinf(light.reach) || (!view.orthographic && distance <= light.reach)) return 1.f;
+    const float scale = std::max(view.clipFromView[0][0], view.clipFromView[1][1]);
+    share = std::max(share, scale * light.reach / (view.orthographic ? 1.f : distance));
+  }
+  return std::min(share, 1.f);
 }
 
 // Strength times the share of the view that the lamp's reach may fill.
@@ -82,6 +95,25 @@ std::vector<render::LightPyramid> pyramidsOf(const scene::PlacedLight& light) {
   return faces;
 }
 
+// Layers of the lamps' texture: of a power of two, so that maps halve evenly; of less than
+// localSize where not even one would fit the budget.
+render::ShadowMapSize layersOf(int localSize, int localMemory, bool translucent) {
+  const std::int64_t bytesOfTexel = translucent ? 4 + 8 + 4 : 4;  // of render::ShadowMaps
+  constexpr std::int64_t kMostLayers = 2048;                      // that OpenGL 4.5 promises
+  const std::int64_t texels = (std::int64_t{localMemory} << 20) / bytesOfTexel;
+  auto side = static_cast<std::int64_t>(std::bit_floor(static_cast<unsigned>(localSize)));
+  while (side * side > texels) side /= 2;
+  return {.side = static_cast<int>(side),
+          .layers = static_cast<int>(std::min(texels / (side * side), kMostLayers))};
+}
+
+// The smallest size of maps: none has fewer texels on a side than localSize may have.
+int smallestSizeOf(int side) {
+  int size = 0;
+  while (size + 1 < ShadowAtlas::kSizes && side >> (size + 1) >= ShadowMaps::kLeastSide) ++size;
+  return size;
+}
+
 // Half-spaces between two distances before the viewer.
 std::array<vec4, 2> sliceOf(const render::Viewer& viewer, float from, float to) {
   const float eye = glm::dot(viewer.forwardW, viewer.positionW);
@@ -112,13 +144,15 @@ std::vector<float> splitsOf(const render::Viewer& viewer, const std::vector<vec3
 class Planner {
  public:
   Planner(const ShadowMaps::Params& params, std::span<const scene::PlacedLight> lights,
-          std::span<const scene::View> views, const scene::Bvh& bvh)
+          std::span<const scene::View> views, const Surfaces& surfaces, LampMaps& former)
       : params_(params),
         lights_(lights),
         views_(views),
-        boxW_(bvh.nodes()[0].box),
+        boxW_(surfaces.bvh.nodes()[0].box),
         body_(render::visibleBody(views, boxW_)),
-        samples_(render::visibleSamples(views, bvh)) {
+        samples_(render::visibleSamples(views, surfaces.bvh)),
+        translucent_(surfaces.translucent),
+        former_(former) {
     plan_.ofLight.resize(lights.size());
   }
 
@@ -136,21 +170,78 @@ class Planner {
     }
   }
 
-  void lamp(std::uint32_t light) {
-    if (plan_.lampsWithMaps == params_.localLights) {
-      ++plan_.lampsLeftOut;
-      return;
+  // lamps: most important first.
+  void local(const std::vector<std::uint32_t>& lamps) {
+    const auto [side, mostLayers, remedy] =
+        layersOf(params_.localSize, params_.localMemory, translucent_);
+    std::vector<LampSizes::Lamp> sized;
+    std::vector<std::vector<Face>> faces;
+    for (const std::uint32_t light : lamps) {
+      if (static_cast<int>(faces.size()) == params_.localLights) {
+        ++plan_.lampsOverCount;
+        continue;
+      }
+      faces.push_back(facesOf(light));
+      if (faces.back().empty()) {
+        faces.pop_back();
+        continue;
+      }
+      sized.push_back({.light = lights_[light].light,
+                       .share = shareOf(lights_[light], views_),
+                       .importance = importanceOf(lights_[light], viewer_.positionW),
+                       .maps = static_cast<int>(faces.back().size())});
     }
-    for (const render::LightPyramid& pyramid : pyramidsOf(lights_[light]))
-      if (const auto projection =
-              render::localProjection(pyramid, views_, boxW_, marginOf(params_.localSize)))
-        add(light, {.projection = *projection, .local = true, .layer = localLayers_++});
-    plan_.lampsWithMaps += plan_.ofLight[light].count > 0;
+    const std::vector<int> sizes =
+        former_.sizes.choose(sized, smallestSizeOf(side), ShadowAtlas::kCells * mostLayers);
+    plan_.lampsWithMaps = static_cast<int>(sizes.size());
+    plan_.lampsOverMemory = static_cast<int>(faces.size() - sizes.size());
+    faces.resize(sizes.size());
+    former_.atlas.reshape(side, mostLayers);
+    addLamps(faces, sizes);
+    plan_.local = {.side = side, .layers = former_.atlas.layers()};
   }
 
-  ShadowMapPlan take() { return std::move(plan_); }
+  ShadowMapPlan take() {
+    plan_.directional = {.side = params_.size, .layers = directionalLayers_};
+    return std::move(plan_);
+  }
 
  private:
+  // A map of a lamp before its size is known.
+  struct Face {
+    std::uint32_t light = 0;  // index in lights_
+    std::uint64_t key = 0;    // the same from frame to frame
+    render::LightPyramid pyramid;
+    std::vector<vec3> bodyW;  // what it is to show
+  };
+
+  // That see something.
+  std::vector<Face> facesOf(std::uint32_t light) const {
+    std::vector<Face> faces;
+    std::uint64_t key = std::uint64_t{lights_[light].light} << 3;
+    for (const render::LightPyramid& pyramid : pyramidsOf(lights_[light])) {
+      std::vector<vec3> bodyW = render::litBody(pyramid, views_, boxW_);
+      if (!bodyW.empty()) faces.push_back({light, key, pyramid, std::move(bodyW)});
+      ++key;
+    }
+    return faces;
+  }
+
+  void addLamps(const std::vector<std::vector<Face>>& faces, const std::vector<int>& sizes) {
+    std::vector<ShadowAtlas::Wish> wishes;
+    for (std::size_t lamp = 0; lamp < faces.size(); ++lamp)
+      for (const Face& face : faces[lamp]) wishes.push_back({face.key, sizes[lamp]});
+    const std::vector<ShadowAtlas::Square> squares = former_.atlas.place(wishes);
+    auto square = squares.begin();
+    for (const std::vector<Face>& ofLamp : faces)
+      for (const Face& face : ofLamp) {
+        const auto [layer, corner, side] = *square++;
+        add(face.light,
+            {.projection = render::localProjection(face.pyramid, face.bodyW, marginOf(side)),
+             .place = {.local = true, .layer = layer, .corner = corner, .side = side}});
+      }
+  }
+
   float warpOf(vec3 directionW) const {
     if (params_.method == ShadowMaps::Method::Uniform) return 0.f;
     if (params_.warp == ShadowMaps::Warp::Automatic)
@@ -161,7 +252,7 @@ class Planner {
   void addDirectional(std::uint32_t light, const std::vector<vec3>& body, float warp) {
     add(light, {.projection = render::directionalProjection(lights_[light].directionW, body, boxW_,
                                                             viewer_, warp, marginOf(params_.size)),
-                .layer = directionalLayers_++});
+                .place = {.layer = directionalLayers_++, .side = params_.size}});
   }
 
   void add(std::uint32_t light, const render::ShadowMaps::Map& map) {
@@ -177,7 +268,9 @@ class Planner {
   const Aabb boxW_;
   const std::vector<vec3> body_, samples_;
   const render::Viewer viewer_ = render::viewerOf(views_);
-  int directionalLayers_ = 0, localLayers_ = 0;
+  const bool translucent_;
+  LampMaps& former_;
+  int directionalLayers_ = 0;
   ShadowMapPlan plan_;
 };
 
@@ -185,13 +278,14 @@ class Planner {
 
 ShadowMapPlan planShadowMaps(const ShadowMaps::Params& params,
                              std::span<const scene::PlacedLight> lights,
-                             std::span<const scene::View> views, const scene::Bvh& bvh) {
-  if (bvh.nodes().empty())
+                             std::span<const scene::View> views, const Surfaces& surfaces,
+                             LampMaps& former) {
+  if (surfaces.bvh.nodes().empty())
     return {.ofLight = std::vector<render::ShadowMaps::Range>(lights.size())};
-  Planner planner(params, lights, views, bvh);
+  Planner planner(params, lights, views, surfaces, former);
   for (std::uint32_t i = 0; i < lights.size(); ++i)
     if (lights[i].kind == scene::LightKind::Directional) planner.directional(i);
-  for (const std::uint32_t lamp : lampsOf(lights, views, bvh.nodes()[0].box)) planner.lamp(lamp);
+  planner.local(lampsOf(lights, views, surfaces.bvh.nodes()[0].box));
   return planner.take();
 }
 

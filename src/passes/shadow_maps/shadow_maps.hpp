@@ -4,20 +4,27 @@
 #include <vector>
 
 #include "graph/pass_info.hpp"
-#include "render/draw_list.hpp"
+#include "passes/shadow_maps/draw_maps.hpp"
+#include "passes/shadow_maps/lamp_sizes.hpp"
+#include "passes/shadow_maps/shadow_atlas.hpp"
 #include "render/light_list.hpp"
-#include "render/object_programs.hpp"
 #include "render/shadow_maps.hpp"
-#include "render/view_data.hpp"
 #include "render/view_group.hpp"
 
 namespace lucerna::passes {
+
+// Of lamps, what a frame's plan hands on to the next.
+struct LampMaps {
+  LampSizes sizes;
+  ShadowAtlas atlas;
+};
 
 class ShadowMaps {
  public:
   enum class Method { Lispsm, Uniform, Cascades };
   enum class Warp { Automatic, Set };
   enum class Redraw { Changed, Always };
+  static constexpr int kLeastSide = 16;  // texels
   struct Params {
     Method method = Method::Lispsm;
     int size = 2048;  // texels
@@ -26,6 +33,7 @@ class ShadowMaps {
     int cascades = 4;
     int localSize = 512;  // texels
     int localLights = 64;
+    int localMemory = 512;  // MiB
     Redraw redraw = Redraw::Changed;
   };
   struct Ports {
@@ -37,27 +45,15 @@ class ShadowMaps {
 
   static void describe(graph::PassInfo<Params, Ports>& d);
   explicit ShadowMaps(gpu::Device& device)
-      : programs_(device, "render/depth.frag"),
-        warpedPrograms_(device, "render/depth.frag", {{"LINEAR_DEPTH", "1"}}) {}
+      : drawer_(device, device.capabilities().features.contains(gpu::kFeatureLayeredVertex)) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  // What one map needs while it is drawn.
-  struct Drawing {
-    render::ViewData view;
-    render::DrawList list;
-  };
+  void warnOfLamps(int withMaps, int leftOut, const char* remedy);
 
-  void warnOfLamps(int leftOut, int allowed);
-  void draw(gpu::Device& device, const Ports& ports, const render::ShadowMaps::Map& map,
-            Drawing& drawing);
-
-  const gpu::Program& programOf(const render::ShadowProjection& projection,
-                                const scene::Material& material);
-
-  render::ObjectPrograms programs_, warpedPrograms_;
-  std::vector<Drawing> drawings_;  // kept for their buffers
-  int mostLeftOut_ = 0;            // lamps without a map, so far
+  MapDrawer drawer_;
+  LampMaps lamps_;
+  int mostLeftOut_ = 0;  // lamps without a map, so far
 };
 
 }  // namespace lucerna::passes

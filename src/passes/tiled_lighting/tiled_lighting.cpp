@@ -114,6 +114,7 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Params& p
   if (ports.ambientVisibility) desc.defines["AMBIENT_VISIBILITY"] = "1";
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
+  if (ports.shadowMaps && ports.shadowMaps->seesPanes()) desc.defines["SHADOW_TRANSMISSION"] = "1";
   if (ports.shadowMaps && filterOf(params.shadows) > 0)
     desc.defines["SHADOW_FILTER"] = std::to_string(filterOf(params.shadows));
   if (hasLayers(ports))

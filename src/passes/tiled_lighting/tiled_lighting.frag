@@ -2,7 +2,7 @@
 //   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
 //   TILE_LIGHTS         see render/tile_lights.glsl
 //   SHADOWS             shadow maps say how much of each light arrives
-//   SHADOW_FILTER       see render/shadows.glsl
+//   SHADOW_FILTER, SHADOW_TRANSMISSION  see render/shadows.glsl
 //   LAYERED_SHADOWS     see visibility.glsl
 // variant: AMBIENT_VISIBILITY=1
 // variant: TILE_LIGHTS=1
@@ -10,6 +10,8 @@
 // variant: SHADOWS=1 SHADOW_FILTER=1
 // variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1 SHADOWS=1 SHADOW_FILTER=2
 // variant: TILE_LIGHTS=1 SHADOWS=1 LAYERED_SHADOWS=4
+// variant: SHADOWS=1 SHADOW_TRANSMISSION=1
+// variant: SHADOWS=1 SHADOW_FILTER=2 SHADOW_TRANSMISSION=1
 #ifdef SHADOWS
 #define LIGHT_VISIBILITY
 #endif

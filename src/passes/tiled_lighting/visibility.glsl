@@ -58,7 +58,8 @@ Surface shadowedSurface(ivec2 pixel) {
   return s;
 }
 
-float lightVisibility(Surface s, uint light) {
+// What nothing opaque blocks.
+float unblockedShare(Surface s, uint light, vec3 toLightW) {
 #ifdef LAYERED_SHADOWS
   int layer = lightLayers[light];
 #ifdef ALL_IN_LAYERS
@@ -67,7 +68,15 @@ float lightVisibility(Surface s, uint light) {
   if (layer >= 0) return layerShares[layer];
 #endif
 #endif
+  return shadowVisibility(light, s.positionW, planeNormalW, toLightW);
+}
+
+vec3 lightVisibility(Surface s, uint light) {
   LightValues values = lights[light];
   vec3 toLightW = normalize(values.position.xyz - s.positionW * values.position.w);
-  return shadowVisibility(light, s.positionW, planeNormalW, toLightW);
+  vec3 visible = vec3(unblockedShare(s, light, toLightW));
+#ifdef SHADOW_TRANSMISSION
+  visible *= shadowTransmittance(light, s.positionW, planeNormalW, toLightW);
+#endif
+  return visible;
 }
