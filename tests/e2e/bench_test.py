@@ -137,11 +137,11 @@ class BenchTest(unittest.TestCase):
         for name in names:
             self.assertGreater(runs[name]["real_time"], 0)
         alone, hard, pcss, layered = (runs[name] for name in names[:4])
-        self.assertEqual([alone["shadow_texels"], hard["shadow_texels"] % (1024 * 1024)], [0, 0])
+        self.assertEqual(alone["shadow_texels"], 0)
         self.assertGreater(hard["shadow_texels"], 0)
         self.assertEqual([hard["layers"], layered["layers"], layered["lights_beyond"]], [0, 1, 0])
         self.assertAlmostEqual(pcss["taps"], hard["taps"] * (5 * 5 + 11 * 11))
-        self.assertGreater(hard["texture_mib"], alone["texture_mib"] + 3.9)  # the map
+        self.assertGreater(hard["texture_mib"] * 2**20, alone["texture_mib"] * 2**20 + 3 * hard["shadow_texels"])
         self.assertGreater(hard["draws"], runs[names[5]]["draws"])  # nothing is redrawn that is kept
         self.assertGreater(layered["step_ShadowBlur"], 0)
         self.assertIn("**Ratios of whole frames, 48x36, penumbra: median (quartiles)**", text)

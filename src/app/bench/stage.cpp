@@ -74,9 +74,8 @@ std::vector<std::string> keptOf(const Chain& chain) {
 std::uint64_t texelsOf(const render::ShadowMaps& maps) {
   std::uint64_t texels = 0;
   for (const render::ShadowMaps::Map& map : maps.maps) {
-    const gpu::Texture& texture = map.local ? maps.local : maps.directional;
-    texels +=
-        static_cast<std::uint64_t>(texture.width()) * static_cast<std::uint64_t>(texture.height());
+    const auto side = static_cast<std::uint64_t>(map.place.side);
+    texels += side * side;
   }
   return texels;
 }
