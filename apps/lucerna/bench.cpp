@@ -117,7 +117,7 @@ void addBench(CommandLine& line) {
   command->add_option("SUITE", options->suite, "which, or all; without it they are listed");
   command->add_option("-o,--output", options->output,
                       "folder for SUITE.json, SUITE.md and SUITE.html");
-  command->add_flag("--quick", bench.quick, "small pictures, few cameras: all within 5 minutes");
+  command->add_flag("--quick", bench.quick, "small pictures, few cameras, fewer scenes");
   addRepeatable(*command, "--scene", bench.scenes, sceneHelp() + ", instead of the suite's");
   command
       ->add_option("--scene-folder", bench.sceneFolder,

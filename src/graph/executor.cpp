@@ -1,5 +1,6 @@
 #include "graph/executor.hpp"
 
+#include <algorithm>
 #include <chrono>
 
 #include "core/log.hpp"
@@ -89,6 +90,8 @@ struct Executor::Impl {
   void finishProfile();
   Status takeErrors();
   const gpu::Texture* textureOf(std::size_t version, std::size_t view);
+  const void* dataOf(std::size_t version, std::size_t view, std::type_index type);
+  std::size_t keptVersion(std::string_view name) const;  // kNoVersion: there is none
 
   gpu::Device& device;
   const Registry& registry;
@@ -380,6 +383,19 @@ const gpu::Texture* Executor::Impl::textureOf(std::size_t version, std::size_t v
   return &slot.items[slot.current];
 }
 
+const void* Executor::Impl::dataOf(std::size_t version, std::size_t view, std::type_index type) {
+  if (version == kNoVersion || schedule.versions[version].type.data != type) return nullptr;
+  auto& slot = storage.data(schedule.versions[version].physical).of(view);
+  return slot.items[slot.current].get();
+}
+
+std::size_t Executor::Impl::keptVersion(std::string_view name) const {
+  const auto found = std::ranges::find(plan.keptNames, name);
+  return found == plan.keptNames.end()
+             ? kNoVersion
+             : schedule.kept[static_cast<std::size_t>(found - plan.keptNames.begin())];
+}
+
 Executor::Executor(gpu::Device& device, const Registry& registry)
     : impl_(std::make_unique<Impl>(device, registry)) {}
 Executor::~Executor() = default;
@@ -424,10 +440,11 @@ Status Executor::execute(const FrameInput& input, const OnView& onView) {
 }
 
 const gpu::Texture* Executor::kept(std::string_view name) const {
-  for (std::size_t i = 0; i < impl_->plan.keptNames.size(); ++i)
-    if (impl_->plan.keptNames[i] == name)
-      return impl_->textureOf(impl_->schedule.kept[i], impl_->currentView);
-  return nullptr;
+  return impl_->textureOf(impl_->keptVersion(name), impl_->currentView);
+}
+
+const void* Executor::keptData(std::string_view name, std::type_index type) const {
+  return impl_->dataOf(impl_->keptVersion(name), impl_->currentView, type);
 }
 
 void Executor::setProfiling(bool on) {

@@ -85,6 +85,11 @@ class Executor {
   // A kept value of the view just drawn, as named in setPipeline; valid inside onView. Null if that
   // is not a texture.
   const gpu::Texture* kept(std::string_view name) const;
+  // The same of a port that carries data.
+  template <PortData T>
+  const T* keptData(std::string_view name) const {
+    return static_cast<const T*>(keptData(name, typeid(T)));
+  }
 
   // Files that passes wrote in the last frame.
   const std::vector<std::filesystem::path>& written() const;
@@ -98,6 +103,8 @@ class Executor {
   const Schedule& schedule() const;
 
  private:
+  const void* keptData(std::string_view name, std::type_index type) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

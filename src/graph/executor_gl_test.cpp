@@ -97,6 +97,27 @@ TEST_F(ExecutorGlTest, UpdatesAndCopies) {
   EXPECT_THAT(kept, ElementsAre(112, 1, 11));
 }
 
+struct Other {
+  static constexpr const char* kPortName = "Other";
+};
+
+TEST_F(ExecutorGlTest, KeptDataIsGivenByItsType) {
+  set({row("MakeNumber", "M", 7), FakeRow("ShowNumber")}, {"M.data"});
+  const std::vector<Imports> views(1);
+  int seen = 0;
+  const Status status = executor_->execute({.views = views}, [&](int, const Texture& output) {
+    const Number* number = executor_->keptData<Number>("M.data");
+    EXPECT_TRUE(number && number->value == valueOf(device(), output));
+    EXPECT_EQ(executor_->keptData<Other>("M.data"), nullptr);
+    EXPECT_EQ(executor_->keptData<Number>("M.other"), nullptr);
+    EXPECT_EQ(executor_->kept("M.data"), nullptr);
+    ++seen;
+    return Status();
+  });
+  ASSERT_TRUE(status);
+  EXPECT_EQ(seen, 1);
+}
+
 TEST_F(ExecutorGlTest, AnOptionalUpdateStartsWhereThereIsNothing) {
   set({row("AddOrStart", "S", 10), row("AddInPlace", "U", 100)});
   EXPECT_THAT(frame(), ElementsAre(110));

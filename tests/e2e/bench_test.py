@@ -17,7 +17,8 @@ import unittest
 from pages_test import Page
 
 PROGRAM = ""
-SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size", "depth-of-field"]
+SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size", "depth-of-field", "soft-shadows",
+          "soft-shadows-quality"]
 
 
 def small(scene="cornell", cameras=1, rounds=1, size="48x36"):
@@ -128,6 +129,38 @@ class BenchTest(unittest.TestCase):
         self.assertGreater(gather["psnr"], none["psnr"])
         self.assertLess(none["sharp_flip"], none["flip"])
         self.assertIn("| separable, scale 0.75 |", text)
+
+    def test_soft_shadows_have_times_and_counts(self):
+        runs, text = self.measured("soft-shadows", *small("penumbra", rounds=3))
+        names = [f"soft-shadows/48x36/{maps}/{method}/penumbra_median" for maps in ("redrawn", "kept")
+                 for method in ("lighting alone", "hard", "pcss 5+11", "layered 11")]
+        for name in names:
+            self.assertGreater(runs[name]["real_time"], 0)
+        alone, hard, pcss, layered = (runs[name] for name in names[:4])
+        self.assertEqual(alone["shadow_texels"], 0)
+        self.assertGreater(hard["shadow_texels"], 0)
+        self.assertEqual([hard["layers"], layered["layers"], layered["lights_beyond"]], [0, 1, 0])
+        self.assertAlmostEqual(pcss["taps"], hard["taps"] * (5 * 5 + 11 * 11))
+        self.assertGreater(hard["texture_mib"] * 2**20, alone["texture_mib"] * 2**20 + 3 * hard["shadow_texels"])
+        self.assertGreater(hard["draws"], runs[names[5]]["draws"])  # nothing is redrawn that is kept
+        self.assertGreater(layered["step_ShadowBlur"], 0)
+        self.assertIn("**Ratios of whole frames, 48x36, penumbra: median (quartiles)**", text)
+        row = next(line for line in text.splitlines() if line.startswith("| pcss / layered, kernel 11 | redrawn"))
+        self.assertRegex(row, r"at least 1.80 \| (met|missed) \| 1.67 \|$")
+
+    def test_soft_shadows_have_their_error(self):
+        begin = "soft-shadows-quality/"
+        runs, text = self.measured("soft-shadows-quality", *small("penumbra", size="160x90"))
+        scene = "penumbra_median"
+        noise, hard, pcss, layered = (runs[f"{begin}{method}/{scene}"]
+                                      for method in ("reference", "hard", "pcss 5+11", "layered 11"))
+        self.assertLess(noise["flip"], pcss["flip"])
+        self.assertLess(pcss["penumbra_flip"], hard["penumbra_flip"])
+        self.assertGreater(layered["penumbra_psnr"], hard["penumbra_psnr"])
+        self.assertGreater(noise["penumbra_psnr"], pcss["penumbra_psnr"])
+        self.assertEqual(hard["leak"], 0)
+        self.assertEqual(layered["others_steps"], 0)  # there are none
+        self.assertIn("**Halo pixels, %**", text)
 
     def test_what_does_not_come_with_lucerna_is_skipped_with_a_word(self):
         arguments = ["forward", "--quick", "--size", "16x12", "--cameras", 1, "--rounds", 1]

@@ -180,6 +180,22 @@ std::vector<SeededCamera> seededCameras(const scene::Scene& scene, const CameraW
   return cameras;
 }
 
+std::vector<SeededCamera> ownCameras(const scene::Scene& scene, int most) {
+  std::vector<SeededCamera> cameras;
+  for (const scene::Camera& camera : scene.cameras) {
+    if (static_cast<int>(cameras.size()) == most) break;
+    const mat4& worldFromNode = scene.nodes[camera.node].worldFromNode;
+    const vec3 position(worldFromNode[3]);
+    cameras.push_back({.pose = {.position = position,
+                                .target = position - glm::normalize(vec3(worldFromNode[2])),
+                                .up = vec3(worldFromNode[1]),
+                                .fovY = camera.fovY,
+                                .near = camera.near,
+                                .far = camera.far}});
+  }
+  return cameras;
+}
+
 CameraPath pathThrough(std::span<const SeededCamera> cameras) {
   std::vector<CameraPose> rest, poses;
   for (const SeededCamera& camera : cameras) rest.push_back(camera.pose);

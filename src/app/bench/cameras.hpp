@@ -29,6 +29,9 @@ struct CameraWish {
 // date. The first cameras are the same whatever the count.
 std::vector<SeededCamera> seededCameras(const scene::Scene& scene, const CameraWish& wish);
 
+// Where the first of the scene's own cameras stand. All see in perspective. Sights are 1 m.
+std::vector<SeededCamera> ownCameras(const scene::Scene& scene, int most);
+
 // A path that visits them all, the next one always the nearest of the rest, a second apart.
 CameraPath pathThrough(std::span<const SeededCamera> cameras);
 

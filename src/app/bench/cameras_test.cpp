@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "scene/load.hpp"
+#include "scene/view.hpp"
 
 namespace lucerna::app::bench {
 namespace {
@@ -74,6 +75,21 @@ TEST(SeededCameras, ASceneWithoutSurfacesIsSeenFromOutside) {
   const auto cameras = seededCameras(scene::Scene{}, {.count = 2});
   ASSERT_EQ(cameras.size(), 2u);
   EXPECT_NE(cameras[0].pose.position, cameras[0].pose.target);
+}
+
+TEST(OwnCameras, AreTheFirstOfTheScene) {
+  const scene::Scene scene = load("builtin:atrium");
+  const auto cameras = ownCameras(scene, 2);
+  ASSERT_EQ(cameras.size(), 2u);
+  EXPECT_EQ(ownCameras(scene, 10).size(), scene.cameras.size());
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const scene::View own = scene::viewOf(scene, scene.cameras[i], 1.5f);
+    scene::Scene other = scene;
+    const std::uint32_t added = addCamera(other, "copy", cameras[i].pose);
+    const scene::View copy = scene::viewOf(other, other.cameras[added], 1.5f);
+    for (int column = 0; column < 4; ++column)
+      EXPECT_LT(glm::distance(own.clipFromWorld()[column], copy.clipFromWorld()[column]), 1e-4f);
+  }
 }
 
 TEST(SeededCameras, APathVisitsAllOfThemFromTheFirst) {

@@ -56,10 +56,11 @@ std::vector<std::string> notesOf(const Results& results) {
   std::vector<std::string> notes = results.notes;
   notes.insert(
       notes.begin(),
-      fmt::format("{} seeded camera{} a scene, pictures of {} px; each variant is drawn once to "
+      fmt::format("{} {}camera{} a scene, pictures of {} px; each variant is drawn once to "
                   "warm up and then {} time{}, in turn with the others.",
-                  results.cameras, results.cameras == 1 ? "" : "s", fmt::join(results.sizes, ", "),
-                  results.rounds, results.rounds == 1 ? "" : "s"));
+                  results.cameras, results.ownCameras ? "of its own " : "seeded ",
+                  results.cameras == 1 ? "" : "s", fmt::join(results.sizes, ", "), results.rounds,
+                  results.rounds == 1 ? "" : "s"));
   if (results.cancelled) notes.insert(notes.begin(), "Cancelled: scenes are missing.");
   return notes;
 }
@@ -122,6 +123,7 @@ std::string spreadText(std::span<const double> samples) {
 std::string worstText(std::span<const double> errors, double Spread::* worst) {
   if (errors.empty()) return "-";
   const Spread spread = spreadOf(errors);
+  if (errors.size() == 1) return numberText(spread.median);
   return fmt::format("{} (worst {})", numberText(spread.median), numberText(spread.*worst));
 }
 

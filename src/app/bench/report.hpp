@@ -60,7 +60,7 @@ struct Report {
 // "12.3 (11.9 to 12.8)": median and quartiles with three digits that count. One sample stands
 // alone; "-" is none.
 std::string spreadText(std::span<const double> samples);
-// "0.12 (worst 0.34)": the median and one of the ends.
+// "0.12 (worst 0.34)": the median and one of the ends. One error stands alone; "-" is none.
 std::string worstText(std::span<const double> errors, double Spread::* worst = &Spread::max);
 std::string numberText(double value);                   // three digits that count
 std::string ratioText(std::span<const double> ratios);  // "1.45": their median; "-" is none

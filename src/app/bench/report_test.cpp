@@ -30,6 +30,7 @@ TEST(BenchReport, SpreadsAreMediansWithQuartiles) {
 TEST(BenchReport, ErrorsAreMediansWithTheWorst) {
   EXPECT_EQ(worstText(Samples{1, 2, 9}), "2.00 (worst 9.00)");
   EXPECT_EQ(worstText(Samples{20, 30, 40}, &Spread::min), "30.0 (worst 20.0)");
+  EXPECT_EQ(worstText(Samples{2}), "2.00");
   EXPECT_EQ(worstText({}), "-");
 }
 

@@ -56,6 +56,7 @@ struct Results {
   Context context{};
   std::vector<std::string> sizes{};  // of pictures: "800x600" px
   int cameras = 0, rounds = 0;       // each variant takes `rounds` turns at each camera
+  bool ownCameras = false;           // those of the scenes, as many of them as there are
   std::vector<Measurement> measurements{};
   std::vector<std::string> notes{};   // what was left out, and why
   bool cancelled = false;             // scenes are missing

@@ -201,7 +201,7 @@ Suite ssaoSamplesSuite() {
            {.name = "living_room", .path = "godot_living_room/living_room.glb", .outside = true}},
       .full = {.sizes = {{480, 270}}, .cameras = 20, .rounds = 1},
       .quick = {.sizes = {{320, 180}}, .cameras = 2, .rounds = 1},
-      .plain = true,
+      .surfaces = Surfaces::Plain,
       .measure = measure,
       .report = report};
 }

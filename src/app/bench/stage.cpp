@@ -4,6 +4,8 @@
 #include <chrono>
 
 #include "app/frame.hpp"
+#include "render/shadow_layers.hpp"
+#include "render/shadow_maps.hpp"
 
 namespace lucerna::app::bench {
 namespace {
@@ -46,12 +48,45 @@ void makePlain(scene::Material& material) {
   material = std::move(plain);
 }
 
-void makePlain(scene::Scene& scene) {
+void makePlain(scene::Scene& scene, bool keepTranslucent) {
+  const auto translucent = [](const scene::Material& material) {
+    return material.alphaMode == scene::AlphaMode::Blend;
+  };
   std::erase_if(scene.objects, [&](const scene::Object& object) {
-    return scene.materials[object.material].alphaMode == scene::AlphaMode::Blend ||
+    return (!keepTranslucent && translucent(scene.materials[object.material])) ||
            scene.meshes[object.mesh].triangleCount() == 0;
   });
-  for (scene::Material& material : scene.materials) makePlain(material);
+  for (scene::Material& material : scene.materials)
+    if (!keepTranslucent || !translucent(material)) makePlain(material);
+}
+
+const std::string kMaps = "ShadowMaps.shadowMaps", kLayers = "ShadowLayers.shadowLayers";
+
+// Values of shadow passes that samples tell of.
+std::vector<std::string> keptOf(const Chain& chain) {
+  std::vector<std::string> kept;
+  for (const Row& row : chain.rows)
+    for (const std::string& port : {kMaps, kLayers})
+      if (port.starts_with(row.pass + ".")) kept.push_back(port);
+  return kept;
+}
+
+std::uint64_t texelsOf(const render::ShadowMaps& maps) {
+  std::uint64_t texels = 0;
+  for (const render::ShadowMaps::Map& map : maps.maps) {
+    const auto side = static_cast<std::uint64_t>(map.place.side);
+    texels += side * side;
+  }
+  return texels;
+}
+
+void tellOfShadows(const graph::Executor& executor, Sample& sample) {
+  if (const auto* maps = executor.keptData<render::ShadowMaps>(kMaps))
+    sample.shadowTexels = texelsOf(*maps);
+  if (const auto* layers = executor.keptData<render::ShadowLayers>(kLayers)) {
+    sample.shadowLayers = layers->count;
+    sample.lightsBeyond = layers->beyond;
+  }
 }
 
 Result<graph::Pipeline> pipelineOf(const Chain& chain, const graph::Registry& registry) {
@@ -72,9 +107,11 @@ Result<std::unique_ptr<Stage>> Stage::open(const StageSettings& settings) {
   LUCERNA_TRY(session, openSession(render));
   scene::Scene& scene = session->scene;
   scene.animations.clear();  // every frame shows the same moment
-  lightBySun(scene, glm::radians(settings.elevationDegrees), glm::radians(settings.azimuthDegrees));
-  if (settings.plain) {
-    makePlain(scene);
+  if (settings.lighting == Lighting::Sun)
+    lightBySun(scene, glm::radians(settings.elevationDegrees),
+               glm::radians(settings.azimuthDegrees));
+  if (settings.surfaces != Surfaces::Own) {
+    makePlain(scene, settings.surfaces == Surfaces::PlainAndTranslucent);
     session->gpuScene = {};
     render::upload(*session->device, session->gpuScene, scene);
   }
@@ -85,11 +122,32 @@ Result<std::unique_ptr<Stage>> Stage::open(const StageSettings& settings) {
 }
 
 Result<std::size_t> Stage::add(const Variant& variant) {
-  LUCERNA_TRY(pipeline, pipelineOf(variant.chain, session_->registry));
-  auto executor = std::make_unique<graph::Executor>(*session_->device, session_->registry);
-  LUCERNA_TRY_VOID(executor->setPipeline(pipeline, variant.size));
-  lanes_.push_back({variant, std::move(executor)});
+  std::shared_ptr<Renderer> renderer = rendererOf(variant);
+  if (!renderer) {
+    gpu::Device& device = *session_->device;
+    LUCERNA_TRY(pipeline, pipelineOf(variant.chain, session_->registry));
+    renderer = std::make_shared<Renderer>();
+    renderer->executor = std::make_unique<graph::Executor>(device, session_->registry);
+    const std::uint64_t others = device.objectCounts().textureBytes;
+    LUCERNA_TRY_VOID(
+        renderer->executor->setPipeline(pipeline, variant.size, keptOf(variant.chain)));
+    renderer->textureBytes = device.objectCounts().textureBytes - others;
+  }
+  lanes_.push_back({variant, std::move(renderer)});
   return lanes_.size() - 1;
+}
+
+std::shared_ptr<Stage::Renderer> Stage::rendererOf(const Variant& variant) const {
+  for (const Lane& lane : lanes_)
+    if (lane.variant.chain == variant.chain && lane.variant.size == variant.size)
+      return lane.renderer;
+  return nullptr;
+}
+
+void Stage::relight(const std::function<void(scene::Scene& scene)>& change) {
+  change(session_->scene);
+  render::updateLights(*session_->device, session_->lights, session_->scene);
+  session_->gpuScene.changes.lights = true;
 }
 
 Status Stage::look(const CameraPose& pose, float sight) {
@@ -98,7 +156,8 @@ Status Stage::look(const CameraPose& pose, float sight) {
   for (const Lane& lane : lanes_)
     for (const Row& row : lane.variant.chain.rows)
       for (const Length& wanted : row.lengths)
-        LUCERNA_TRY_VOID(lane.executor->setParam(row.pass, wanted.param, length(row.pass, wanted)));
+        LUCERNA_TRY_VOID(
+            lane.renderer->executor->setParam(row.pass, wanted.param, length(row.pass, wanted)));
   return {};
 }
 
@@ -122,10 +181,14 @@ Result<Sample> Stage::draw(std::size_t number, Image* picture) {
   Lane& lane = lanes_[number];
   s.settings.size = lane.variant.size;
   s.plan = planViews(lane.variant.size, 1, 0, 0);
-  std::swap(s.executor, lane.executor);
+  Renderer& renderer = *lane.renderer;
+  for (const Setting& setting : lane.variant.settings)
+    LUCERNA_TRY_VOID(renderer.executor->setParam(setting.pass, setting.param, setting.value));
+  std::swap(s.executor, renderer.executor);
   Sample sample;
   ProfileLog log;
   s.device->finish();
+  const std::uint64_t others = s.device->objectCounts().textureBytes - renderer.textureBytes;
   s.device->resetCounters();
   const auto start = Clock::now();
   const Status drawn = runFrame(s, lane.variant.profiled ? &log : nullptr,
@@ -134,11 +197,14 @@ Result<Sample> Stage::draw(std::size_t number, Image* picture) {
                                   s.device->finish();
                                   sample.realMs = msSince(start);
                                   sample.counters = s.device->counters();
+                                  tellOfShadows(*s.executor, sample);
                                   if (picture) *picture = s.device->download(output);
                                   return {};
                                 });
   if (drawn && lane.variant.profiled) sample.profile = s.executor->profile();
-  std::swap(s.executor, lane.executor);
+  std::swap(s.executor, renderer.executor);
+  renderer.textureBytes = s.device->objectCounts().textureBytes - others;
+  sample.textureBytes = renderer.textureBytes;
   LUCERNA_TRY_VOID(drawn);
   return sample;
 }

@@ -15,38 +15,65 @@ namespace lucerna::app::bench {
 struct Length {
   std::string param;
   float share;  // of how far away things are that are seen
+  bool operator==(const Length&) const = default;
 };
 struct Row {
   std::string pass;
   std::vector<std::string> settings = {};  // "samples=8"
   std::vector<Length> lengths = {};        // set anew at each place
+  bool operator==(const Row&) const = default;
 };
 struct Chain {
   std::vector<Row> rows;
   std::string output = {};  // "Row.port"; "": the last row's color
+  bool operator==(const Chain&) const = default;
 };
 
+// A parameter that leaves the ports as they are.
+struct Setting {
+  std::string pass, param;
+  graph::Value value;
+};
+
+// Variants of the same chain and size share passes and textures, and what passes keep from frame to
+// frame.
 struct Variant {
   Chain chain;
-  uvec2 size{0};          // px
-  bool profiled = false;  // time of every pass, which are then drawn one after the other
+  uvec2 size{0};                       // px
+  bool profiled = false;               // time of every pass, drawn one after the other
+  std::vector<Setting> settings = {};  // before each of its frames
 };
 
 // What one frame took.
 struct Sample {
   double realMs = 0, cpuMs = 0;  // of all of it: until the GPU has finished, until all was told it
   gpu::Counters counters;
-  graph::FrameProfile profile;  // of profiled variants
+  std::uint64_t textureBytes = 0;  // that the chain's passes hold, shadow maps included
+  graph::FrameProfile profile;     // of profiled variants
+  // Of chains with the rows ShadowMaps and ShadowLayers: texels of all maps in use, drawn in this
+  // frame or kept; layers in use; lights that throw shadows and have no layer.
+  std::uint64_t shadowTexels = 0;
+  int shadowLayers = 0, lightsBeyond = 0;
 };
 
-// How a scene is made ready. Every scene is lit by one sun and some ambient light in place of its
-// own lights, so that what is measured is alike everywhere.
+enum class Lighting {
+  Sun,  // one sun and some ambient light instead of the scene's own: alike everywhere
+  Own,
+};
+enum class Surfaces {
+  Own,
+  // Grey and matt, what is neither opaque nor alpha-tested left out: pictures then differ from the
+  // reference in what is measured and in nothing else.
+  Plain,
+  PlainAndTranslucent,  // the same, but translucent surfaces stay as they are
+};
+
+// How a scene is made ready.
 struct StageSettings {
-  RenderSettings render;                             // scene, seed, threads, plugins, shaders
+  RenderSettings render;  // scene, seed, threads, plugins, shaders
+  Lighting lighting = Lighting::Sun;
   float elevationDegrees = 40, azimuthDegrees = 30;  // of the sun: 0 is -z, 90 is +x
-  // All surfaces grey and matt, what is neither opaque nor alpha-tested left out: pictures then
-  // differ from the reference in what is measured and in nothing else.
-  bool plain = false;
+  Surfaces surfaces = Surfaces::Own;
 };
 
 class Stage {
@@ -57,6 +84,11 @@ class Stage {
   // Makes it ready to be drawn; returns its number. Errors (ErrorKind::Pipeline) are all faults.
   Result<std::size_t> add(const Variant& variant);
   const Variant& variant(std::size_t number) const { return lanes_[number].variant; }
+  // Frees all variants; numbers begin anew.
+  void clear() { lanes_.clear(); }
+
+  // Changes lights or ambient light of the scene, and nothing else.
+  void relight(const std::function<void(scene::Scene& scene)>& change);
 
   // From where the next frames are seen. sight: m, see SeededCamera; rows' lengths follow from it.
   Status look(const CameraPose& pose, float sight = 1.f);
@@ -74,10 +106,15 @@ class Stage {
  private:
   explicit Stage(std::unique_ptr<Session> session) : session_(std::move(session)) {}
 
+  struct Renderer {
+    std::unique_ptr<graph::Executor> executor;
+    std::uint64_t textureBytes = 0;
+  };
   struct Lane {
     Variant variant;
-    std::unique_ptr<graph::Executor> executor;
+    std::shared_ptr<Renderer> renderer;
   };
+  std::shared_ptr<Renderer> rendererOf(const Variant& variant) const;  // null: none yet
   std::unique_ptr<Session> session_;
   float sight_ = 1.f;        // m
   std::vector<Lane> lanes_;  // freed before the session's device

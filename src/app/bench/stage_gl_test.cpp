@@ -12,8 +12,9 @@ using testing::HasSubstr;
 
 constexpr uvec2 kSize{96, 72};
 
-std::unique_ptr<Stage> open(const std::string& scene, bool plain = false) {
-  StageSettings settings{.render = {}, .plain = plain};
+std::unique_ptr<Stage> open(const std::string& scene, Surfaces surfaces = Surfaces::Own,
+                            Lighting lighting = Lighting::Sun) {
+  StageSettings settings{.render = {}, .lighting = lighting, .surfaces = surfaces};
   settings.render.scene = scene;
   auto stage = Stage::open(settings);
   EXPECT_TRUE(stage) << stage.error().message;
@@ -99,7 +100,7 @@ TEST(Stage, LengthsFollowTheSight) {
 // What makes errors of a technique out of differences from the reference: nothing else differs.
 TEST(Stage, PlainScenesAgreeWithTheReference) {
   for (const char* scene : {"builtin:cornell", "builtin:mirrors"}) {
-    const auto stage = open(scene, true);
+    const auto stage = open(scene, Surfaces::Plain);
     ASSERT_TRUE(stage);
     Chain chain = kDeferred;
     chain.rows.back().settings = {"operator=linear"};
@@ -117,6 +118,87 @@ TEST(Stage, PlainScenesAgreeWithTheReference) {
     for (float& value : truth.as<float>()) value = srgbFromLinear(value);
     EXPECT_GT(pixelMetrics(truth, converted(picture, ComponentType::F32, 3)).psnr, 45) << scene;
   }
+}
+
+TEST(Stage, VariantsOfAChainShareItAndKeepTheirSettings) {
+  const auto stage = open("builtin:cornell");
+  ASSERT_TRUE(stage);
+  const auto variant = [&](double exposure) {
+    return stage->add(
+        {.chain = kDeferred, .size = kSize, .settings = {{"ToneMap", "exposure", exposure}}});
+  };
+  const auto bright = variant(0.0);
+  const auto before = stage->device().objectCounts();
+  const auto dark = variant(-8.0);
+  ASSERT_TRUE(bright && dark);
+  EXPECT_EQ(stage->device().objectCounts(), before);
+  lookFromSomewhere(*stage);
+  Image first, other, again;
+  ASSERT_TRUE(stage->draw(*bright, &first));
+  ASSERT_TRUE(stage->draw(*dark, &other));
+  ASSERT_TRUE(stage->draw(*bright, &again));
+  EXPECT_FALSE(std::ranges::equal(first.bytes(), other.bytes()));
+  EXPECT_TRUE(std::ranges::equal(first.bytes(), again.bytes()));
+  stage->clear();
+  EXPECT_LT(stage->device().objectCounts().textures, before.textures);
+}
+
+TEST(Stage, OwnLightsStayAndCanBeChanged) {
+  const auto stage = open("builtin:penumbra?case=overlap&k=3", Surfaces::Own, Lighting::Own);
+  ASSERT_TRUE(stage);
+  const std::vector<scene::Light> lights = stage->scene().lights;
+  ASSERT_EQ(lights.size(), 3u);
+  const auto variant = stage->add({.chain = kDeferred, .size = kSize});
+  ASSERT_TRUE(variant);
+  lookFromSomewhere(*stage);
+  Image before, changed, after;
+  ASSERT_TRUE(stage->draw(*variant, &before));
+  stage->relight([](scene::Scene& scene) { scene.lights[1].color = vec3(0); });
+  ASSERT_TRUE(stage->draw(*variant, &changed));
+  stage->relight([&](scene::Scene& scene) { scene.lights = lights; });
+  ASSERT_TRUE(stage->draw(*variant, &after));
+  EXPECT_FALSE(std::ranges::equal(before.bytes(), changed.bytes()));
+  EXPECT_TRUE(std::ranges::equal(before.bytes(), after.bytes()));
+}
+
+TEST(Stage, TranslucentSurfacesStayWhereTheyAreWanted) {
+  const auto translucent = [](Surfaces surfaces) {
+    const auto stage = open("builtin:penumbra?case=panes", surfaces);
+    return std::ranges::count_if(stage->scene().objects, [&](const scene::Object& object) {
+      return stage->scene().materials[object.material].alphaMode == scene::AlphaMode::Blend;
+    });
+  };
+  EXPECT_EQ(translucent(Surfaces::Plain), 0);
+  EXPECT_EQ(translucent(Surfaces::PlainAndTranslucent), translucent(Surfaces::Own));
+  EXPECT_GT(translucent(Surfaces::Own), 0);
+}
+
+TEST(Stage, ASampleTellsOfShadows) {
+  const auto stage = open("builtin:penumbra?case=overlap&k=3", Surfaces::Own, Lighting::Own);
+  ASSERT_TRUE(stage);
+  const auto variant = stage->add({.chain = {{{"Cull"},
+                                              {"GBuffer"},
+                                              {"ShadowMaps", {"localSize=64"}},
+                                              {"TileLights"},
+                                              {"ShadowLayers", {"layers=2"}},
+                                              {"ShadowMask"},
+                                              {"Penumbra"},
+                                              {"ShadowBlur"},
+                                              {"TiledLighting", {"shadows=layered"}}}},
+                                   .size = kSize});
+  const auto plain = stage->add({.chain = kDeferred, .size = kSize});
+  ASSERT_TRUE(variant && plain) << (variant ? "" : variant.error().message);
+  ASSERT_TRUE(stage->look(ownCameras(stage->scene(), 1)[0].pose));
+  const auto shadowed = stage->draw(*variant), lit = stage->draw(*plain);
+  ASSERT_TRUE(shadowed && lit);
+  EXPECT_GT(shadowed->shadowTexels, 0u);
+  EXPECT_LE(shadowed->shadowTexels, 3u * 6 * 64 * 64) << "wide lamps have several maps";
+  EXPECT_EQ(shadowed->shadowLayers, 2);
+  EXPECT_EQ(shadowed->lightsBeyond, 1);
+  EXPECT_EQ(lit->shadowTexels, 0u);
+  EXPECT_EQ(lit->shadowLayers, 0);
+  EXPECT_GT(shadowed->textureBytes, lit->textureBytes + 4 * shadowed->shadowTexels)
+      << "maps and the mask";
 }
 
 }  // namespace

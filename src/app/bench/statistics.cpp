@@ -29,6 +29,13 @@ Spread spreadOf(std::span<const double> samples) {
           .max = sorted.back()};
 }
 
+double quantileOf(std::span<const double> samples, double share) {
+  if (samples.empty()) return 0;
+  std::vector<double> sorted(samples.begin(), samples.end());
+  std::ranges::sort(sorted);
+  return quantile(sorted, share);
+}
+
 std::vector<double> pairedRatios(std::span<const double> samples,
                                  std::span<const double> baseline) {
   std::vector<double> ratios;
@@ -49,6 +56,17 @@ std::optional<double> onLogCurve(std::span<const glm::dvec2> points, double x) {
     return std::exp(std::lerp(std::log(a.y), std::log(b.y), share));
   }
   return std::nullopt;
+}
+
+double slopeOf(std::span<const glm::dvec2> points) {
+  glm::dvec2 mean(0);
+  for (const glm::dvec2 p : points) mean += p / static_cast<double>(points.size());
+  double xx = 0, xy = 0;
+  for (const glm::dvec2 p : points) {
+    xx += (p.x - mean.x) * (p.x - mean.x);
+    xy += (p.x - mean.x) * (p.y - mean.y);
+  }
+  return xx > 0 ? xy / xx : 0;
 }
 
 }  // namespace lucerna::app::bench

@@ -18,6 +18,8 @@ struct Spread {
   double min = 0, max = 0;
 };
 Spread spreadOf(std::span<const double> samples);
+// The same for any share, 0 to 1.
+double quantileOf(std::span<const double> samples, double share);
 
 // How many times as large each sample is as the baseline's of the same turn; turns in which that is
 // 0 are left out. Empty if they are not as many.
@@ -27,5 +29,8 @@ std::vector<double> pairedRatios(std::span<const double> samples, std::span<cons
 // that of a point at x if there is one, else where the curve first passes x. None if it never does,
 // or if a value there is not above 0.
 std::optional<double> onLogCurve(std::span<const glm::dvec2> points, double x);
+
+// By how much y grows with x, by least squares; 0 of fewer than two different x.
+double slopeOf(std::span<const glm::dvec2> points);
 
 }  // namespace lucerna::app::bench

@@ -19,6 +19,13 @@ TEST(Statistics, QuantilesLieBetweenSamplesInProportion) {
   EXPECT_DOUBLE_EQ(spread.max, 8);
 }
 
+TEST(Statistics, AnyQuantileCanBeAskedFor) {
+  const std::vector<double> samples{8, 1, 4, 2};
+  EXPECT_DOUBLE_EQ(quantileOf(samples, 0.25), spreadOf(samples).lower);
+  EXPECT_DOUBLE_EQ(quantileOf(samples, 0.9), 6.8);
+  EXPECT_EQ(quantileOf({}, 0.9), 0);
+}
+
 TEST(Statistics, OneSampleIsAllOfIt) {
   const Spread spread = spreadOf(std::vector<double>{7});
   EXPECT_EQ(spread.lower, 7);
@@ -59,6 +66,14 @@ TEST(Statistics, ACurveGoesThroughItsPointsInTheirOrder) {
 TEST(Statistics, WithoutErrorThereIsNoLogarithm) {
   EXPECT_EQ(onLogCurve(std::vector<glm::dvec2>{{1, 0}, {4, 3}}, 2), std::nullopt);
   EXPECT_EQ(onLogCurve(std::vector<glm::dvec2>{{1, 0}, {4, 3}}, 1), std::nullopt);
+}
+
+TEST(Statistics, SlopesAreThoseOfLeastSquares) {
+  EXPECT_DOUBLE_EQ(slopeOf(std::vector<glm::dvec2>{{1, 7}, {4, 13}, {16, 37}}), 2);
+  // Worked out by R: lm(c(1, 2, 2, 6) ~ c(0, 1, 2, 3))
+  EXPECT_DOUBLE_EQ(slopeOf(std::vector<glm::dvec2>{{0, 1}, {1, 2}, {2, 2}, {3, 6}}), 1.5);
+  EXPECT_EQ(slopeOf(std::vector<glm::dvec2>{{3, 1}, {3, 2}}), 0);
+  EXPECT_EQ(slopeOf({}), 0);
 }
 
 TEST(Statistics, AnInfiniteSampleLeavesTheLowerQuantilesAlone) {

@@ -25,6 +25,7 @@ std::vector<SceneChoice> scenesOf(const Suite& suite, const BenchOptions& option
   for (const std::string& path : options.scenes) scenes.push_back(chosenByUser(path));
   if (!scenes.empty()) return scenes;
   for (SceneChoice scene : suite.scenes) {
+    if (options.quick && !scene.quick) continue;
     if (scene.outside) {
       const std::string file = scene.path;
       scene.path = (std::filesystem::path(options.sceneFolder) / file).string();
@@ -41,8 +42,11 @@ std::vector<SceneChoice> scenesOf(const Suite& suite, const BenchOptions& option
   return scenes;
 }
 
-Extent extentOf(const Suite& suite, const BenchOptions& options) {
+// Of a scene, or of the suite where scenes do not say otherwise.
+Extent extentOf(const Suite& suite, const BenchOptions& options, const SceneChoice& scene = {}) {
   Extent extent = options.quick ? suite.quick : suite.full;
+  if (const auto& sizes = options.quick ? scene.quickSizes : scene.sizes; !sizes.empty())
+    extent.sizes = sizes;
   if (!options.sizes.empty()) extent.sizes = options.sizes;
   extent.cameras = options.cameras.value_or(extent.cameras);
   extent.rounds = options.rounds.value_or(extent.rounds);
@@ -50,19 +54,25 @@ Extent extentOf(const Suite& suite, const BenchOptions& options) {
 }
 
 Status measure(const Suite& suite, const SceneChoice& scene, const BenchOptions& options,
-               const Extent& extent, Results& results, Progress& progress) {
+               Results& results, Progress& progress) {
+  const Extent extent = extentOf(suite, options, scene);
   StageSettings settings{.render = options.render,
+                         .lighting = suite.lighting,
                          .elevationDegrees = scene.elevationDegrees,
                          .azimuthDegrees = scene.azimuthDegrees,
-                         .plain = suite.plain};
+                         .surfaces = suite.surfaces};
+  if (scene.translucent && suite.surfaces == Surfaces::Plain)
+    settings.surfaces = Surfaces::PlainAndTranslucent;
   settings.render.scene = scene.path;
   LUCERNA_TRY(stage, Stage::open(settings));
   results.context.driver = stage->device().description();
   results.context.timers = stage->device().timersUseCpuClock() ? "cpu-after-finish" : "gpu-timer";
   Run run(*stage, results, scene.name, extent, progress);
-  run.cameras = seededCameras(
-      stage->scene(),
-      {.count = extent.cameras, .seed = options.render.seed, .eyeHeight = scene.eyeHeight});
+  run.cameras = suite.places == Places::Own
+                    ? ownCameras(stage->scene(), extent.cameras)
+                    : seededCameras(stage->scene(), {.count = extent.cameras,
+                                                     .seed = options.render.seed,
+                                                     .eyeHeight = scene.eyeHeight});
   return suite.measure(run);
 }
 
@@ -121,6 +131,22 @@ Status Run::takeTurnsEverywhere(const Turns& turns) {
   return {};
 }
 
+Status Run::drawEach(const std::function<bool(const Name& name)>& wanted,
+                     const std::function<void(const Name& name, const Image& picture)>& see) {
+  for (Lane& lane : lanes_) {
+    if (!wanted(lane.name)) continue;
+    Image picture;
+    LUCERNA_TRY(sample, draw(lane, &picture));
+    if (sample) see(lane.name, picture);
+  }
+  return {};
+}
+
+void Run::clear() {
+  lanes_.clear();
+  stage.clear();
+}
+
 void Run::advance(double share) {
   const auto units = [&] { return static_cast<std::uint64_t>(done_ * kSceneUnits); };
   const std::uint64_t before = units();
@@ -140,8 +166,9 @@ std::vector<std::size_t> turnOrder(std::size_t count, std::size_t round) {
 }
 
 std::span<const Suite> suites() {
-  static const std::vector<Suite> all{passesSuite(),      forwardSuite(),    sraaSuite(),
-                                      ssaoSamplesSuite(), shadowSizeSuite(), depthOfFieldSuite()};
+  static const std::vector<Suite> all{
+      passesSuite(),     forwardSuite(),      sraaSuite(),        ssaoSamplesSuite(),
+      shadowSizeSuite(), depthOfFieldSuite(), softShadowsSuite(), softShadowsQualitySuite()};
   return all;
 }
 
@@ -163,17 +190,22 @@ Results run(const Suite& suite, const BenchOptions& options) {
   const Extent extent = extentOf(suite, options);
   Results results{.suite = std::string(suite.name), .context = contextOfMachine()};
   results.context.quick = options.quick;
-  for (const uvec2 size : extent.sizes) results.sizes.push_back(sizeName(size));
+  results.ownCameras = suite.places == Places::Own;
   results.cameras = extent.cameras;
   results.rounds = extent.rounds;
   results.context.seed = options.render.seed;
   const std::vector<SceneChoice> scenes = scenesOf(suite, options, results);
+  for (const SceneChoice& scene : scenes)
+    for (const uvec2 size : extentOf(suite, options, scene).sizes)
+      if (const std::string name = sizeName(size);
+          std::ranges::find(results.sizes, name) == results.sizes.end())
+        results.sizes.push_back(name);
   for (const std::string& note : results.notes) log::info("{}", note);
   Progress progress(std::string(suite.name), kSceneUnits * scenes.size());
   for (const SceneChoice& scene : scenes) {
     log::debug("{}: {}", suite.name, scene.name);
     Results withScene = results;
-    const Status measured = measure(suite, scene, options, extent, withScene, progress);
+    const Status measured = measure(suite, scene, options, withScene, progress);
     if (!measured) withScene.measurements = std::move(results.measurements);
     results = std::move(withScene);
     if (measured) continue;

@@ -22,6 +22,15 @@ struct SceneChoice {
   bool outside = false;  // a file that does not come with Lucerna
   float elevationDegrees = 40, azimuthDegrees = 30;  // of its sun
   float eyeHeight = 0;                               // m, see CameraWish
+  std::vector<uvec2> sizes = {}, quickSizes = {};    // px, instead of the suite's; empty: those
+  bool quick = true;                                 // measured by --quick, too
+  bool translucent = false;  // its translucent surfaces stay where others are plain
+};
+
+// Where a scene is seen from.
+enum class Places {
+  Seeded,  // see cameras.hpp
+  Own,     // the first of the scene's own cameras
 };
 
 // How much is measured.
@@ -70,6 +79,11 @@ class Run {
   Status takeTurns(const Turns& turns, double share);
   // That at each of the cameras.
   Status takeTurnsEverywhere(const Turns& turns);
+  // Draws each variant that is wanted once.
+  Status drawEach(const std::function<bool(const Name& name)>& wanted,
+                  const std::function<void(const Name& name, const Image& picture)>& see);
+  // Forgets all variants.
+  void clear();
 
  private:
   struct Lane {
@@ -96,7 +110,9 @@ struct Suite {
   std::string_view name, title;
   std::vector<SceneChoice> scenes;
   Extent full, quick;
-  bool plain = false;  // StageSettings::plain
+  Lighting lighting = Lighting::Sun;
+  Places places = Places::Seeded;
+  Surfaces surfaces = Surfaces::Own;
   Status (*measure)(Run& run) = nullptr;
   // Of results with at least one measurement.
   std::vector<Block> (*report)(const Results& results) = nullptr;
@@ -124,6 +140,8 @@ Suite sraaSuite();
 Suite ssaoSamplesSuite();
 Suite shadowSizeSuite();
 Suite depthOfFieldSuite();
+Suite softShadowsSuite();
+Suite softShadowsQualitySuite();
 
 // "800x600"
 std::string sizeName(uvec2 size);

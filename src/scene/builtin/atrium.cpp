@@ -163,7 +163,7 @@ void addLight(Plan& plan, std::uint32_t i, const AtriumOptions& options, Random&
   // The hall stays about as bright for any number of lights.
   light.intensity = kPi * (spot ? 7.f : 3.6f) * std::sqrt(16.f / std::max(count, 4.f));
   light.attenuation = {1.f, 0.f, 0.12f};
-  light.range = 26.f;
+  light.range = options.reach;
   light.radius = 0.15f;
   light.innerCone = glm::radians(20.f);
   light.outerCone = glm::radians(52.f);

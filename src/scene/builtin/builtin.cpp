@@ -21,6 +21,7 @@ Result<Scene> readAtrium(builtin::OptionReader& reader) {
   const std::vector<std::string> kinds{"spot", "point"};
   reader.integer("lights", options.lights, 0, 4096);
   reader.choice("kind", kind, kinds);
+  reader.number("reach", options.reach, 0.1f, 100);
   reader.number("moving", options.moving, 0, 1);
   reader.flag("glass", options.glass);
   reader.integer("seed", options.seed, 0, ~0u);

@@ -161,6 +161,11 @@ TEST(Atrium, ReachesOverlap) {
   }
 }
 
+TEST(Atrium, LightsReachAsFarAsAskedFor) {
+  for (const PlacedLight& light : placeLights(make("builtin:atrium?reach=7")))
+    EXPECT_EQ(light.reach, 7.f);
+}
+
 TEST(Atrium, MovesATenthOfItsObjects) {
   Scene scene = make("builtin:atrium?moving=0.1");
   const std::size_t moved = animate(scene, 1.3f).size();
