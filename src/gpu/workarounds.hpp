@@ -17,8 +17,8 @@ inline constexpr std::string_view kTimersOnCpuClock = "timers-on-cpu-clock";
 inline constexpr std::string_view kNoAnisotropy = "no-anisotropy";
 // Mesa 22.3 loses the other layers when one layer of an array is invalidated.
 inline constexpr std::string_view kKeepDiscardedLayers = "keep-discarded-layers";
-// NVIDIA's driver says with medium severity when it compiles a shader again for other state, or moves
-// a buffer: its own affairs, of which no program can free it.
+// NVIDIA's driver says with medium severity when it compiles a shader again for other state, or
+// moves a buffer: its own affairs, of which no program can free it.
 inline constexpr std::string_view kNoPerformanceMessages = "no-performance-messages";
 
 // Those that the driver needs, less the comma-separated ones in `disabled`, in alphabetical order.

@@ -18,7 +18,9 @@ namespace lucerna::render {
 
 struct LayerLookupParams {
   float bias = 0.f;  // m
-  float normalBias = 1.f;
+  // Twice what keeps a plane from shadowing itself: nothing smooths the mask, so that what bends
+  // between two pixels must not, either.
+  float normalBias = 2.f;
 };
 
 struct LayerLookupPorts {

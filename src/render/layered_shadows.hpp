@@ -14,11 +14,12 @@ struct Penumbrae {
   gpu::Texture widths;  // Rgba16Float array; none of no layers
 };
 
-// What share of its light each layer lets through.
+// What share of its light each layer lets through: bytes of 0 to 254, as shares of 254; 255: a
+// pixel has no penumbra that shows, and the mask's bit says it.
 struct LayeredShadows {
   static constexpr const char* kPortName = "LayeredShadows";
   int layers = 0, scale = 2;
-  gpu::Texture visibility;  // R32Uint array, four unorm bytes; none of no layers
+  gpu::Texture visibility;  // R32Uint array, four bytes each; none of no layers
 };
 
 inline int arrayLayersOf(int layers) {

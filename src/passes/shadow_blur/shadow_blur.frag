@@ -24,13 +24,18 @@ uniform int taps;             // on either side of the pixel
 uniform float maximumRadius;  // px of the picture
 uniform float edgeStop;       // m
 
-layout(location = 0) out uint visibility[ARRAY_LAYERS];  // four layers, a byte each
+layout(location = 0) out uint visibility[ARRAY_LAYERS];  // four layers, a byte each: see render/layered_shadows.hpp
 
 #ifdef HALF_SIZE
 const int kScale = 2;
+// What averages of four pixels and mixes of four texels blur along each axis, texels: a deviation of which penumbrae have
+// so much already.
+const float kInherent = 0.5;
 #else
 const int kScale = 1;
+const float kInherent = 0.0;
 #endif
+const uint kAsMask = 255u;
 const int kLayers = 4 * ARRAY_LAYERS;
 // The standard deviation of a disc light's penumbra, as a share of its width; and how far a kernel goes, in deviations.
 const float kDeviation = 0.25, kReach = 2.2;
@@ -45,16 +50,16 @@ vec2 texelsOfMetre(vec4 clip, vec3 directionV) {
 
 // A circle on the surface is an ellipse in the picture. Its Gaussian is one along x and one along a skewed axis after
 // another: Geusebroek and Smeulders, "Fast Anisotropic Gauss Filtering", IEEE Transactions on Image Processing 12(8), 2003.
-// Returns the axis' step for a deviation of a metre, texels.
-vec2 axisOf(vec3 positionV, vec3 normalV) {
+// xy: the axis' step for a deviation of a metre; z: its larger extent along both axes of the picture; texels.
+vec3 axisOf(vec3 positionV, vec3 normalV) {
   vec4 clip = view.clipFromView * vec4(positionV, 1.0);
 #ifdef PUBLISHED
   float across = 0.5 / float(kScale) * view.size.y * view.clipFromView[1][1] / clip.w;
   float shrunk = across * sqrt(max(normalV.z, kPublishedCosine));
 #ifdef OF_MASK
-  return vec2(shrunk, 0.0);
+  return vec3(shrunk, 0.0, shrunk);
 #else
-  return vec2(0.0, shrunk);
+  return vec3(0.0, shrunk, shrunk);
 #endif
 #else
   vec3 along = normalize(abs(normalV.y) < 0.8 ? vec3(normalV.z, 0.0, -normalV.x) : vec3(0.0, -normalV.z, normalV.y));
@@ -62,10 +67,11 @@ vec2 axisOf(vec3 positionV, vec3 normalV) {
   float xx = first.x * first.x + second.x * second.x;
   float xy = first.x * first.y + second.x * second.y;
   float yy = max(first.y * first.y + second.y * second.y, 1e-12);
+  float extent = sqrt(max(xx, yy));
 #ifdef OF_MASK
-  return vec2(sqrt(max(xx - xy * xy / yy, 0.0)), 0.0);
+  return vec3(sqrt(max(xx - xy * xy / yy, 0.0)), 0.0, extent);
 #else
-  return sqrt(yy) * vec2(xy / yy, 1.0);
+  return vec3(sqrt(yy) * vec2(xy / yy, 1.0), extent);
 #endif
 #endif
 }
@@ -79,71 +85,81 @@ vec4 onSurface(TangentPlane t, float ownDepth, ivec2 first, vec4 depths) {
 #endif
 }
 
+float widthOf(ivec2 pixel, int layer) {  // m
+  return texelFetch(penumbrae, ivec3(pixel / penumbraScale, layer / 4), 0)[layer % 4];
+}
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = kScale * texel;
   ivec2 picture = textureSize(depth, 0), last = (picture + kScale - 1) / kScale - 1;
   for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = 0xffffffffu;
-  if (isEmpty(pixel)) return;
-
-  // Taps spread over the widest of the pixel's penumbrae.
-  float exponents[kLayers], sums[kLayers], weights[kLayers];
-  float widest = 0.0;
-  for (int a = 0; a < ARRAY_LAYERS; ++a) {
-    vec4 widths = texelFetch(penumbrae, ivec3(pixel / penumbraScale, a), 0);
-    for (int b = 0; b < 4; ++b) {
-      float deviation = kDeviation * widths[b];  // m
-      widest = max(widest, deviation);
-      exponents[4 * a + b] = deviation > 0.0 ? -0.7213475 / (deviation * deviation) : -1e30;  // of 2
-      sums[4 * a + b] = weights[4 * a + b] = 0.0;
-    }
+  float widest = 0.0, deviations[kLayers];
+  for (int l = 0; l < kLayers; ++l) {
+    deviations[l] = kDeviation * widthOf(pixel, l);  // m
+    widest = max(widest, deviations[l]);
   }
-  vec2 axis = vec2(1.0, 0.0);
-  TangentPlane tangent = TangentPlane(vec4(0.0), 0.0);
-  float ownDepth = texelFetch(depth, pixel, 0).r;
   // Software rasterisers leave loops early, but run both ways of an if.
-  for (bool once = widest > 0.0; once; once = false) {
+  for (bool once = widest > 0.0 && !isEmpty(pixel); once; once = false) {
     SurfacePixel s = surfaceAt(pixel);
     vec3 positionV = (view.viewFromWorld * vec4(s.positionW, 1.0)).xyz;
     vec3 normalV = mat3(view.viewFromWorld) * s.planeNormalW;
-    axis = axisOf(positionV, normalV);
-    tangent = tangentPlaneAt(positionV, normalV, max(edgeStop, 1.0 / max(length(axis), 1e-6)));
-  }
-  float length1 = max(length(axis), 1e-6);  // texels of a metre
-  float radius = min(kReach * widest * length1, maximumRadius / float(kScale));
-  float apart = max(radius / float(taps), 1.0);  // texels
-  vec2 direction = axis / length1;
-  int end = widest == 0.0 ? 0 : taps;
-  for (int i = -end; i <= end; ++i) {
-    ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);
-    float metres = float(i) * apart / length1;
-#if defined(OF_MASK) && defined(HALF_SIZE)
-    vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(picture);
-    uvec4 bits = textureGather(shadowMask, corner);
-    vec4 on = onSurface(tangent, ownDepth, 2 * tap, textureGather(depth, corner));
-    if (i == 0) on.w = 1.0;
-    float share = 0.25 * dot(on, vec4(1.0));
-#else
-    float tapDepth = texelFetch(depth, kScale * tap, 0).r;
-    float share = i == 0 ? 1.0 : onSurface(tangent, ownDepth, kScale * tap, vec4(tapDepth)).w;
-#endif
+    vec3 axis = max(axisOf(positionV, normalV), vec3(-1e6, -1e6, 1e-6));
+    float length1 = max(length(axis.xy), 1e-6);  // texels of a metre
+    TangentPlane tangent = tangentPlaneAt(positionV, normalV, max(edgeStop, 1.0 / axis.z));
+    float ownDepth = texelFetch(depth, pixel, 0).r;
+
+    float exponents[kLayers], sums[kLayers], weights[kLayers];
+    float inherent = kInherent / length1;
     for (int l = 0; l < kLayers; ++l) {
-      float weight = share * exp2(exponents[l] * metres * metres);
-#ifndef OF_MASK
-      float lit = float(texelFetch(alongX, ivec3(tap, l / 4), 0).r >> uint(8 * (l % 4)) & 255u) / 255.0;
-      sums[l] += weight * lit;
-#elif defined(HALF_SIZE)
-      vec4 blocked = vec4(bits >> uint(l) & 1u);
-      sums[l] += weight - weight * dot(on, blocked) / max(4.0 * share, 1.0);
-#else
-      sums[l] += weight * float(~texelFetch(shadowMask, tap, 0).r >> uint(l) & 1u);
-#endif
-      weights[l] += weight;
+      float variance = deviations[l] * deviations[l] - inherent * inherent;
+      exponents[l] = variance > 0.0 ? -0.7213475 / variance : -1e30;  // of 2
+      sums[l] = weights[l] = 0.0;
     }
-  }
-  for (int a = 0; a < ARRAY_LAYERS; ++a) {
-    uint bytes = 0u;
-    for (int b = 0; b < 4; ++b)
-      bytes |= uint(255.0 * sums[4 * a + b] / max(weights[4 * a + b], 1e-6) + 0.5) << uint(8 * b);
-    visibility[a] = bytes;
+    // Taps spread over the widest of the pixel's penumbrae.
+    float radius = min(kReach * widest * length1, maximumRadius / float(kScale));
+    float apart = max(radius / float(taps), 1.0);  // texels
+    vec2 direction = axis.xy / length1;
+    for (int i = -taps; i <= taps; ++i) {
+      ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);
+      float metres = float(i) * apart / length1;
+#if defined(OF_MASK) && defined(HALF_SIZE)
+      vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(picture);
+      uvec4 bits = textureGather(shadowMask, corner);
+      vec4 on = onSurface(tangent, ownDepth, 2 * tap, textureGather(depth, corner));
+      if (i == 0) on.w = 1.0;
+      float share = 0.25 * dot(on, vec4(1.0));
+#else
+      float tapDepth = texelFetch(depth, kScale * tap, 0).r;
+      float share = i == 0 ? 1.0 : onSurface(tangent, ownDepth, kScale * tap, vec4(tapDepth)).w;
+#endif
+      for (int l = 0; l < kLayers; ++l) {
+        float weight = share * exp2(exponents[l] * metres * metres);
+#ifndef OF_MASK
+        float lit = float(texelFetch(alongX, ivec3(tap, l / 4), 0).r >> uint(8 * (l % 4)) & 255u) / 255.0;
+        sums[l] += weight * lit;
+#elif defined(HALF_SIZE)
+        vec4 blocked = vec4(bits >> uint(l) & 1u);
+        sums[l] += weight - weight * dot(on, blocked) / max(4.0 * share, 1.0);
+#else
+        sums[l] += weight * float(~texelFetch(shadowMask, tap, 0).r >> uint(l) & 1u);
+#endif
+        weights[l] += weight;
+      }
+    }
+    for (int a = 0; a < ARRAY_LAYERS; ++a) {
+      uint bytes = 0u;
+      for (int b = 0; b < 4; ++b) {
+        int l = 4 * a + b;
+        float lit = sums[l] / max(weights[l], 1e-6);
+#ifdef OF_MASK
+        uint byte = uint(255.0 * lit + 0.5);
+#else
+        bool sharp = deviations[l] * axis.z <= 0.5 * kInherent;
+        uint byte = sharp ? kAsMask : uint(254.0 * lit + 0.5);
+#endif
+        bytes |= byte << uint(8 * b);
+      }
+      visibility[a] = bytes;
+    }
   }
 }

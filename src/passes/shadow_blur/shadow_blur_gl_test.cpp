@@ -136,7 +136,7 @@ TEST(LayersOfTiles, AreSharedByLampsThatAreApart) {
       addLamp(scene, {x, 0.2f, -3}, {x, 0, -kWall});
       scene.lights.back().outerCone = 0.3f;
       scene.lights.back().innerCone = 0.25f;
-      scene.lights.back().radius = 0.05f;
+      scene.lights.back().radius = 0.15f;
     }
     updateTransforms(scene);
     const auto picture = [&](std::int64_t layers) {

@@ -44,8 +44,10 @@ void readLayers(ivec2 pixel, vec3 positionW) {
   for (int a = 0; a < LAYERED_SHADOWS; ++a) {
     uvec4 found = textureGather(layeredShadows, vec3((vec2(texel) + 1.0) / vec2(size), a));
     for (int b = 0; b < 4; ++b) {
-      float lit = dot(vec4(found >> uint(8 * b) & 255u), weights) / (255.0 * max(sum, 1e-6));
-      layerShares[4 * a + b] = sum > 0.0 ? lit : float(~mask >> uint(4 * a + b) & 1u);
+      float unblocked = float(~mask >> uint(4 * a + b) & 1u);
+      uvec4 bytes = found >> uint(8 * b) & 255u;
+      vec4 lit = mix(vec4(bytes) / 254.0, vec4(unblocked), equal(bytes, uvec4(255u)));
+      layerShares[4 * a + b] = sum > 0.0 ? dot(lit, weights) / sum : unblocked;
     }
   }
 }

@@ -12,7 +12,7 @@ namespace lucerna::scene::builtin {
 struct AtriumOptions {
   std::uint32_t lights = 16;
   LightKind kind = LightKind::Spot;
-  float reach = 26.f;     // m, of the lights
+  float reach = 26.f;  // m, of the lights
   float moving = 0.f;  // share of the objects that is animated
   bool glass = false;  // translucent panes
   std::uint32_t seed = 1;
