@@ -76,6 +76,11 @@ const std::vector<ShadowMethod>& methods() {
       pcss(5, 5),
       pcss(5, 11),
       pcss(5, 23),
+      // A tap for the blockers' mean depth, one for the share that is blocked.
+      {.name = "prefiltered",
+       .rows = {{"PrefilteredShadows"}},
+       .lighting = lighting("prefiltered"),
+       .taps = {.perLight = 2}},
       layered({.kernel = 5}),
       layered({.kernel = 11}),
       layered({.kernel = 23}),

@@ -24,7 +24,7 @@ const std::string kAlone = "lighting alone", kHard = "hard", kPcss = "pcss 5+11"
                   kWidePcss = "pcss 5+23", kLayered = "layered 11", kWideLayered = "layered 23",
                   kWidestLayered = "layered 47";
 // Where not all methods are drawn: by number of lights, and quickly.
-const std::vector<std::string> kMain{kAlone, kHard, "pcf 11", kPcss, kLayered};
+const std::vector<std::string> kMain{kAlone, kHard, "pcf 11", kPcss, "prefiltered", kLayered};
 const std::vector<std::string> kOfBars{kAlone,   kHard,        kPcss,         kWidePcss,
                                        kLayered, kWideLayered, kWidestLayered};
 

@@ -38,7 +38,7 @@ const float kInherent = 0.0;
 const uint kAsMask = 255u;
 const int kLayers = 4 * ARRAY_LAYERS;
 // The standard deviation of a disc light's penumbra, as a share of its width; and how far a kernel goes, in deviations.
-const float kDeviation = 0.25, kReach = 2.2;
+const float kDeviation = 0.25, kReach = 2.6;
 const float kPublishedStop = 0.03;    // of stored depth
 const float kPublishedCosine = 0.25;  // at least, where a surface is seen at a grazing angle
 

@@ -25,18 +25,19 @@ const float kSameSurface = 0.05;  // m off the tangent plane, or as wide as a pi
 float layerShares[4 * LAYERED_SHADOWS];
 
 // From the four texels around the pixel, those on its surface, weighted by how near they are; if there is none, the
-// mask's bit.
+// mask's bit. A texel of half the size lies in the middle of the four pixels that it stands for.
 void readLayers(ivec2 pixel, vec3 positionW) {
-  ivec2 size = textureSize(layeredShadows, 0).xy, texel = pixel / layerScale;
-  vec2 odd = 0.5 * vec2(pixel & (layerScale - 1));
+  ivec2 size = textureSize(layeredShadows, 0).xy, texel = layerScale == 1 ? pixel : (pixel - 1) >> 1;
+  vec2 beyond = layerScale == 1 ? vec2(0.0) : vec2(0.75) - 0.5 * vec2(pixel & 1);  // its first texel
   vec3 positionV = (view.viewFromWorld * vec4(positionW, 1.0)).xyz;
   TangentPlane tangent = tangentPlaneAt(positionV, mat3(view.viewFromWorld) * planeNormalW,
                                         max(kSameSurface, 2.0 * pixelWidthAt(positionV)));
   // In the order of textureGather().
-  vec4 weights = vec4((1.0 - odd.x) * odd.y, odd.x * odd.y, odd.x * (1.0 - odd.y), (1.0 - odd.x) * (1.0 - odd.y));
+  vec2 before = 1.0 - beyond;
+  vec4 weights = vec4(before.x * beyond.y, beyond.x * beyond.y, beyond.x * before.y, before.x * before.y);
   ivec2 offsets[4] = ivec2[](ivec2(0, 1), ivec2(1, 1), ivec2(1, 0), ivec2(0, 0));
   for (int i = 0; i < 4; ++i) {
-    ivec2 other = layerScale * min(texel + offsets[i], size - 1);
+    ivec2 other = layerScale * clamp(texel + offsets[i], ivec2(0), size - 1);
     weights[i] = onPlane(tangent, other, texelFetch(depth, other, 0).r) ? weights[i] : 0.0;
   }
   float sum = dot(weights, vec4(1.0));
