@@ -123,6 +123,10 @@ void Device::Impl::openScope() {
 
 void Device::Impl::closeScope() {
   scope = {};
+  // Drivers look at what a program reads also while targets are cleared, when its textures may be
+  // gone.
+  if (boundProgram != 0) glUseProgram(0);
+  boundProgram = 0;
 }
 
 void Commands::use(const Program& program, const RenderState& state) {

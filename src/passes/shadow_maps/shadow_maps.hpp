@@ -45,10 +45,15 @@ class ShadowMaps {
 
   static void describe(graph::PassInfo<Params, Ports>& d);
   explicit ShadowMaps(gpu::Device& device)
-      : drawer_(device, device.capabilities().features.contains(gpu::kFeatureLayeredVertex)) {}
+      : drawer_(device, drawsLayersTogether(device.capabilities())) {}
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
+  // Software rasterisers have nothing to gain from few draws, and lose by layers.
+  static bool drawsLayersTogether(const gpu::Capabilities& capabilities) {
+    return capabilities.features.contains(gpu::kFeatureLayeredVertex) &&
+           !capabilities.softwareRasterizer;
+  }
   void warnOfLamps(int withMaps, int leftOut, const char* remedy);
 
   MapDrawer drawer_;
