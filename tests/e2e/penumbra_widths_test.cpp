@@ -31,6 +31,15 @@ scene::Scene halfPlane(float radius) {
   return scene;
 }
 
+// Lamps beside the first, of no account, whose maps share layers with its map.
+void addNeighbours(scene::Scene& scene) {
+  scene::Light light = scene.lights[0];
+  light.intensity = 1.f;
+  for (const float y : {-0.5f, 0.f, 0.2f})
+    testing::addLight(scene, light, {kLampX, y, 0}, {kLampX, y, -kWall});
+  updateTransforms(scene);
+}
+
 gpu::Texture uploaded(const Image& image, gpu::Format format) {
   gpu::Texture texture = testing::device().createTexture(
       {.format = format, .width = image.width(), .height = image.height()}, "copy");
@@ -40,8 +49,11 @@ gpu::Texture uploaded(const Image& image, gpu::Format format) {
 
 using Params = passes::Penumbra::Params;
 
-// Of the middle row, m.
-std::vector<float> widthsOf(const scene::Scene& scene, const Params& params) {
+constexpr int kPlenty = 512;  // MiB for maps
+
+// Of the first light in the middle row, m.
+std::vector<float> widthsOf(const scene::Scene& scene, const Params& params,
+                            int localMemory = kPlenty) {
   testing::SceneRenderer renderer(scene);
   auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
                                 {"GBuffer.depth", "GBuffer.normal"});
@@ -57,7 +69,8 @@ std::vector<float> widthsOf(const scene::Scene& scene, const Params& params) {
   mapPorts.lights.bind(&renderer.lights);
   mapPorts.views.bind(&views);
   mapPorts.shadowMaps.bind(&maps);
-  passes::ShadowMaps(testing::device()).execute(context, {.localSize = 2048}, mapPorts);
+  passes::ShadowMaps(testing::device())
+      .execute(context, {.localSize = 2048, .localMemory = localMemory}, mapPorts);
 
   render::ShadowLayers layers;
   passes::ShadowLayers::Ports layerPorts;
@@ -84,12 +97,13 @@ std::vector<float> widthsOf(const scene::Scene& scene, const Params& params) {
   if (params.method == passes::Penumbra::Method::Minimum) ports.nearestBlockers.bind(&nearest);
   ports.penumbrae.bind(&penumbrae);
   passes::Penumbra(testing::device()).execute(context, params, ports);
-  EXPECT_EQ(penumbrae.layers, 1);
+  EXPECT_EQ(penumbrae.layers, static_cast<int>(scene.lights.size()));
+  const int layer = layers.ofLight[0];
   const Image image =
-      converted(testing::device().download(penumbrae.widths), ComponentType::F32, 4);
+      converted(testing::device().download(penumbrae.widths, layer / 4), ComponentType::F32, 4);
   std::vector<float> widths;
   for (int x = 0; x < image.width(); ++x)
-    widths.push_back(image.pixel<float>(x, image.height() / 2)[0]);
+    widths.push_back(image.pixel<float>(x, image.height() / 2)[layer % 4]);
   return widths;
 }
 
@@ -128,6 +142,23 @@ TEST(PenumbraWidths, OfNearestBlockersAreThoseOfADiscAndLinearInItsSize) {
   Params params;
   params.method = passes::Penumbra::Method::Minimum;
   expectThoseOfADisc(params);
+}
+
+// Small maps lie side by side: windows end at their edges, and levels of blocks at their size.
+TEST(PenumbraWidths, AreThoseOfALampByItselfWhereItsMapHasNeighbours) {
+  Params params;
+  for (const auto method : {passes::Penumbra::Method::Search, passes::Penumbra::Method::Minimum}) {
+    params.method = method;
+    const scene::Scene alone = halfPlane(0.4f);
+    scene::Scene together = alone;
+    addNeighbours(together);
+    // Enough for one map of 512 x 512 texels, and for four of them.
+    const std::vector<float> wanted = widthsOf(alone, params, 1);
+    const std::vector<float> found = widthsOf(together, params, 4);
+    EXPECT_EQ(found, wanted);
+    EXPECT_GT(std::ranges::max(found), 0.5f);
+    EXPECT_EQ(std::ranges::min(found), 0.f);
+  }
 }
 
 }  // namespace
