@@ -31,12 +31,13 @@ scene::Scene halfPlane(float radius) {
   return scene;
 }
 
-// Lamps beside the first, of no account, whose maps share layers with its map.
+// Stronger lamps behind the half-plane: their maps, which see no more than the wall, are placed
+// before the first lamp's own in the same layer.
 void addNeighbours(scene::Scene& scene) {
   scene::Light light = scene.lights[0];
-  light.intensity = 1.f;
+  light.intensity = 200.f;
   for (const float y : {-0.5f, 0.f, 0.2f})
-    testing::addLight(scene, light, {kLampX, y, 0}, {kLampX, y, -kWall});
+    testing::addLight(scene, light, {kLampX, y, -0.7f * kWall}, {kLampX, y, -kWall});
   updateTransforms(scene);
 }
 
@@ -71,6 +72,10 @@ std::vector<float> widthsOf(const scene::Scene& scene, const Params& params,
   mapPorts.shadowMaps.bind(&maps);
   passes::ShadowMaps(testing::device())
       .execute(context, {.localSize = 2048, .localMemory = localMemory}, mapPorts);
+
+  const auto& place = maps.maps[maps.ofLight[0].first].place;
+  EXPECT_EQ(place.corner == ivec2(0), scene.lights.size() == 1) << "where its map lies";
+  EXPECT_EQ(place.side, localMemory == kPlenty ? 2048 : 512);
 
   render::ShadowLayers layers;
   passes::ShadowLayers::Ports layerPorts;
