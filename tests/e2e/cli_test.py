@@ -373,6 +373,18 @@ class CliTest(unittest.TestCase):
             self.assert_ok(self.lucerna("pipeline", "check", name))
             self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", name, "-o", f"{name}.png"))
 
+    def test_layered_shadows_are_the_same_bits_with_any_number_of_threads(self):
+        mask = pathlib.Path(__file__).resolve().parents[2] / "src/passes/shadow_mask/mask_colors.js"
+        for pipeline, kind in (("layered", "exr"), (mask, "png")):
+            pictures = []
+            for threads in ("1", "2", "2"):  # of the software rasteriser
+                picture = self.folder / f"of{threads}.{kind}"
+                self.assert_ok(self.lucerna("render", "builtin:atrium", "--size", "160x90", "--pipeline", pipeline,
+                                            "-o", picture, environment={"LP_NUM_THREADS": threads}))
+                pictures.append(picture.read_bytes())
+            self.assertEqual(pictures[0], pictures[1])
+            self.assertEqual(pictures[1], pictures[2])
+
     def test_the_example_without_cpp_draws_what_its_page_says(self):
         example = pathlib.Path(__file__).resolve().parents[2] / "examples" / "edges" / "edges.js"
         self.assert_ok(self.lucerna("pipeline", "check", example))
