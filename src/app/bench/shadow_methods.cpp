@@ -100,7 +100,8 @@ const std::vector<ShadowMethod>& methods() {
 }  // namespace
 
 double ShadowTaps::at(double lights, int layers) const {
-  return perPixel + perLight * lights + perFourLayers * ((layers + 3) / 4);
+  const int fours = (layers + 3) / 4;
+  return perPixel + perLight * lights + perFourLayers * fours;
 }
 
 const ShadowMethod& shadowMethod(std::string_view name) {

@@ -37,8 +37,9 @@ const float kInherent = 0.0;
 #endif
 const uint kAsMask = 255u;
 const int kLayers = 4 * ARRAY_LAYERS;
-// The standard deviation of a disc light's penumbra, as a share of its width; and how far a kernel goes, in deviations.
-const float kDeviation = 0.25, kReach = 2.6;
+// A disc light's penumbra is a half circle, whose standard deviation is a quarter of its width. A Gaussian of this share of
+// the width, cut off where the penumbra ends, has the same, and quartiles within 4 % of those.
+const float kOfDisc = 0.25, kGaussian = 0.35;
 const float kPublishedStop = 0.03;    // of stored depth
 const float kPublishedCosine = 0.25;  // at least, where a surface is seen at a grazing angle
 
@@ -93,10 +94,10 @@ void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = kScale * texel;
   ivec2 picture = textureSize(depth, 0), last = (picture + kScale - 1) / kScale - 1;
   for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = 0xffffffffu;
-  float widest = 0.0, deviations[kLayers];
+  float widest = 0.0, widths[kLayers];  // m
   for (int l = 0; l < kLayers; ++l) {
-    deviations[l] = kDeviation * widthOf(pixel, l);  // m
-    widest = max(widest, deviations[l]);
+    widths[l] = widthOf(pixel, l);
+    widest = max(widest, widths[l]);
   }
   // Software rasterisers leave loops early, but run both ways of an if.
   for (bool once = widest > 0.0 && !isEmpty(pixel); once; once = false) {
@@ -108,16 +109,17 @@ void main() {
     TangentPlane tangent = tangentPlaneAt(positionV, normalV, max(edgeStop, 1.0 / axis.z));
     float ownDepth = texelFetch(depth, pixel, 0).r;
 
-    float exponents[kLayers], sums[kLayers], weights[kLayers];
-    float inherent = kInherent / length1;
+    float exponents[kLayers], ends[kLayers], sums[kLayers], weights[kLayers];
+    float inherent = kInherent / (kOfDisc * length1);
     for (int l = 0; l < kLayers; ++l) {
-      float variance = deviations[l] * deviations[l] - inherent * inherent;
-      exponents[l] = variance > 0.0 ? -0.7213475 / variance : -1e30;  // of 2
+      float squared = max(widths[l] * widths[l] - inherent * inherent, 0.0);
+      exponents[l] = squared > 0.0 ? -0.7213475 / (kGaussian * kGaussian * squared) : 0.0;  // of 2
+      ends[l] = 0.25 * squared;
       sums[l] = weights[l] = 0.0;
     }
-    // Taps spread over the widest of the pixel's penumbrae.
-    float radius = min(kReach * widest * length1, maximumRadius / float(kScale));
-    float apart = max(radius / float(taps), 1.0);  // texels
+    // Taps stand for equal parts of the widest of the pixel's penumbrae.
+    float radius = min(0.5 * widest * length1, maximumRadius / float(kScale));
+    float apart = max(radius / (float(taps) + 0.5), 1.0);  // texels
     vec2 direction = axis.xy / length1;
     for (int i = -taps; i <= taps; ++i) {
       ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);
@@ -133,7 +135,8 @@ void main() {
       float share = i == 0 ? 1.0 : onSurface(tangent, ownDepth, kScale * tap, vec4(tapDepth)).w;
 #endif
       for (int l = 0; l < kLayers; ++l) {
-        float weight = share * exp2(exponents[l] * metres * metres);
+        float squared = metres * metres;
+        float weight = squared <= ends[l] ? share * exp2(exponents[l] * squared) : 0.0;
 #ifndef OF_MASK
         float lit = float(texelFetch(alongX, ivec3(tap, l / 4), 0).r >> uint(8 * (l % 4)) & 255u) / 255.0;
         sums[l] += weight * lit;
@@ -154,7 +157,7 @@ void main() {
 #ifdef OF_MASK
         uint byte = uint(255.0 * lit + 0.5);
 #else
-        bool sharp = deviations[l] * axis.z <= 0.5 * kInherent;
+        bool sharp = kOfDisc * widths[l] * axis.z <= 0.5 * kInherent;
         uint byte = sharp ? kAsMask : uint(254.0 * lit + 0.5);
 #endif
         bytes |= byte << uint(8 * b);
