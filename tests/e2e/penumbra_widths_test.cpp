@@ -3,33 +3,18 @@
 
 #include <cmath>
 
+#include "half_plane.hpp"
 #include "passes/nearest_blockers/nearest_blockers.hpp"
 #include "passes/penumbra/penumbra.hpp"
 #include "passes/shadow_layers/shadow_layers.hpp"
-#include "passes/shadow_maps/shadow_maps.hpp"
-#include "support/testing.hpp"
 
 namespace lucerna {
 namespace {
 
 constexpr uvec2 kSize{256, 64};
-constexpr float kWall = 6.f;    // m before the camera
-constexpr float kLampX = -1.f;  // m; the half-plane's edge is at 0, half way to the wall
-
-// A spot lamp beside the camera, a half-plane between it and a wall.
-scene::Scene halfPlane(float radius) {
-  scene::Scene scene = testing::emptyScene();
-  testing::addWall(scene, kWall);
-  testing::addBox(scene, {-20, 0, -0.5f * kWall}, {40, 40, 1e-3f});
-  scene::Light light;
-  light.kind = scene::LightKind::Spot;
-  light.intensity = 100.f;
-  light.radius = radius;
-  light.outerCone = 1.f;
-  testing::addLight(scene, light, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
-  updateTransforms(scene);
-  return scene;
-}
+constexpr float kWall = testing::kHalfPlaneWall;
+using testing::halfPlane;
+using testing::kLampX;
 
 // Stronger lamps behind the half-plane: their maps, which see no more than the wall, are placed
 // before the first lamp's own in the same layer.
@@ -62,17 +47,9 @@ std::vector<float> widthsOf(const scene::Scene& scene, const Params& params,
   const gpu::Texture depth = uploaded(output->kept.at("GBuffer.depth"), gpu::Format::Depth32F);
   const gpu::Texture normal = uploaded(output->kept.at("GBuffer.normal"), gpu::Format::Rg16Unorm);
   graph::PassContext context{.device = testing::device()};
-  const render::ViewGroup views{{renderer.view.view}};
 
-  render::ShadowMaps maps;
-  passes::ShadowMaps::Ports mapPorts;
-  mapPorts.scene.bind(&renderer.gpuScene);
-  mapPorts.lights.bind(&renderer.lights);
-  mapPorts.views.bind(&views);
-  mapPorts.shadowMaps.bind(&maps);
-  passes::ShadowMaps(testing::device())
-      .execute(context, {.localSize = 2048, .localMemory = localMemory}, mapPorts);
-
+  const render::ShadowMaps maps =
+      testing::mapsFor(renderer, {.localSize = 2048, .localMemory = localMemory});
   const auto& place = maps.maps[maps.ofLight[0].first].place;
   EXPECT_EQ(place.corner == ivec2(0), scene.lights.size() == 1) << "where its map lies";
   EXPECT_EQ(place.side, localMemory == kPlenty ? 2048 : 512);

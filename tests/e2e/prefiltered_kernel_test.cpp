@@ -5,45 +5,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "half_plane.hpp"
 #include "passes/prefiltered_shadows/prefiltered_shadows.hpp"
-#include "passes/shadow_maps/shadow_maps.hpp"
-#include "support/testing.hpp"
 
 namespace lucerna {
 namespace {
 
-constexpr float kWall = 6.f;  // m before the camera
-
-// A spot lamp beside the camera, a half-plane between it and a wall: two depths in its map, and a
-// straight edge.
-scene::Scene halfPlane() {
-  scene::Scene scene = testing::emptyScene();
-  testing::addWall(scene, kWall);
-  testing::addBox(scene, {-20, 0, -0.5f * kWall}, {40, 40, 1e-3f});
-  scene::Light light;
-  light.kind = scene::LightKind::Spot;
-  light.intensity = 100.f;
-  light.outerCone = 1.f;
-  testing::addLight(scene, light, {-1.f, 0.5f, 0}, {-1.f, 0.5f, -kWall});
-  updateTransforms(scene);
-  return scene;
-}
-
 render::PrefilteredShadows made(const passes::PrefilteredShadows::Params& params) {
-  const scene::Scene scene = halfPlane();
+  const scene::Scene scene = testing::halfPlane(0.f);
   testing::SceneRenderer renderer(scene);
   auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), {64, 64});
   CHECK(static_cast<bool>(output), "{}", output.error().message);
   graph::PassContext context{.device = testing::device()};
-  const render::ViewGroup views{{renderer.view.view}};
-
-  render::ShadowMaps maps;
-  passes::ShadowMaps::Ports mapPorts;
-  mapPorts.scene.bind(&renderer.gpuScene);
-  mapPorts.lights.bind(&renderer.lights);
-  mapPorts.views.bind(&views);
-  mapPorts.shadowMaps.bind(&maps);
-  passes::ShadowMaps(testing::device()).execute(context, {}, mapPorts);
+  const render::ShadowMaps maps = testing::mapsFor(renderer, {});
 
   render::PrefilteredShadows shadows;
   passes::PrefilteredShadows::Ports ports;

@@ -75,5 +75,29 @@ TEST(ShadowMask, HasEachLightsShadowInItsLayer) {
   testing::expectNoDebugMessages();
 }
 
+// As published, four layers go through sixteenths in a byte: from nine on a pattern comes back as
+// the one before.
+TEST(ShadowMask, AsPublishedHasWrongPatternsOfFourLayers) {
+  scene::Scene scene = lampScene(7);
+  graph::Pipeline pipeline = maskRows();
+  const Image mended = valueOf(scene, pipeline, "ShadowMask.shadowMask");
+  pipeline.passes[5].params["variant"] = std::string("published");
+  const Image published = valueOf(scene, pipeline, "ShadowMask.shadowMask");
+  int wrong = 0;
+  for (int y = 0; y < mended.height(); ++y)
+    for (int x = 0; x < mended.width(); ++x) {
+      const std::uint32_t bits = *mended.pixel<std::uint32_t>(x, y);
+      std::uint32_t expected = 0;
+      for (int first = 0; first < 32; first += 4) {
+        const std::uint32_t four = bits >> first & 15u;
+        expected |= (four < 9 ? four : four - 1) << first;
+      }
+      ASSERT_EQ(*published.pixel<std::uint32_t>(x, y), expected);
+      wrong += expected != bits;
+    }
+  EXPECT_GT(wrong, 20);
+  testing::expectNoDebugMessages();
+}
+
 }  // namespace
 }  // namespace lucerna
