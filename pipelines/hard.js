@@ -7,7 +7,7 @@ pass("GBuffer");
 pass("CustomShaders");
 pass("ShadowMaps");
 pass("TileLights");
-pass("TiledLighting", {shadows: "hard"});
+pass("TiledLighting", {shadows: "hard", comparison: "plane"});
 pass("Background");
 pass("Mirrors");
 pass("Transparency");

@@ -3,7 +3,7 @@
 namespace lucerna::render {
 
 void bindLayerLookup(gpu::Rendering& rendering, const gpu::Program& program,
-                     const LayerLookupParams& params, const LayerLookupPorts& ports) {
+                     const LayerLookupParams& params, const LayerLookupPorts& ports, float reach) {
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.buffer("LightBlock", ports.lights->block);
   if (ports.tiled()) rendering.buffer("TileLightBlock", ports.tileLights->block);
@@ -11,7 +11,7 @@ void bindLayerLookup(gpu::Rendering& rendering, const gpu::Program& program,
   bindShadowMaps(rendering, *ports.shadowMaps, false);
   rendering.texture("depth", *ports.depth, gpu::kNearest);
   rendering.texture("normal", *ports.normal, gpu::kNearest);
-  program.set("shadowReach", 0.5f);  // one depth, the nearest
+  program.set("shadowReach", reach);
   program.set("shadowBias", params.bias);
   program.set("shadowNormalBias", params.normalBias);
 }

@@ -18,9 +18,7 @@ namespace lucerna::render {
 
 struct LayerLookupParams {
   float bias = 0.f;  // m
-  // Twice what keeps a plane from shadowing itself: nothing smooths the mask, so that what bends
-  // between two pixels must not, either.
-  float normalBias = 2.f;
+  float normalBias = 1.f;
 };
 
 struct LayerLookupPorts {
@@ -81,8 +79,9 @@ void describeLayerLookup(graph::PassInfo<Params, Ports>& d) {
       .help("View-space normal, octahedral.");
 }
 
-// All that render/layer_lookup.glsl reads. The ports have layers.
+// All that render/layer_lookup.glsl reads. The ports have layers. reach: shadowReach of
+// render/shadows.glsl, texels.
 void bindLayerLookup(gpu::Rendering& rendering, const gpu::Program& program,
-                     const LayerLookupParams& params, const LayerLookupPorts& ports);
+                     const LayerLookupParams& params, const LayerLookupPorts& ports, float reach);
 
 }  // namespace lucerna::render

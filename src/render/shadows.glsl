@@ -1,6 +1,8 @@
 // What shadow maps (render/shadow_maps.hpp) say of a point: how much of a light reaches it.
 //   SHADOW_FILTER  1: percentage-closer filtering, 2: percentage-closer soft shadows; without, a single comparison.
 //                  Software rasterisers run what a uniform switches off, too.
+//   PLANE_COMPARISON  each of the four depths around a point is compared where it lies on the surface's plane; without,
+//                     all of them, or the nearest, with the point's own depth, by the hardware
 //   SHADOW_TRANSMISSION  some map sees translucent surfaces, which colour the light
 #include "render/lights.glsl"
 #include "render/transmittance.glsl"
@@ -22,7 +24,8 @@ uniform sampler2DArray localPaneDepths;
 #endif
 
 // How far from where it is looked up, in texels along each side, the depths lie that a comparison reads: half a texel
-// for the nearest one alone, a whole one for the four of the hardware's mean.
+// for the nearest one alone, a whole one for the four of the hardware's mean; by a plane's comparison as far as surfaces
+// may bend off it.
 uniform float shadowReach = 1.0;
 // Percentage-closer filtering (Reeves, Salesin and Cook, SIGGRAPH 1987) over (2 r + 1)^2 comparisons.
 uniform int shadowFilterRadius = 0;
@@ -86,13 +89,16 @@ vec3 uvDepthOf(ShadowMapValues map, vec3 positionW) {
   return vec3(0.5 * clip.xy / clip.w + 0.5, depthInMap(map, clip, positionW));
 }
 
-// By how much depth changes along the surface's plane, for each unit of u and v.
-vec2 depthSlope(ShadowMapValues map, vec3 uvDepth, vec3 positionW, vec3 normalW, float step) {
-  vec3 along = normalize(abs(normalW.y) < 0.8 ? vec3(normalW.z, 0.0, -normalW.x) : vec3(0.0, -normalW.z, normalW.y));
-  vec3 first = uvDepthOf(map, positionW + step * along) - uvDepth;
-  vec3 second = uvDepthOf(map, positionW + step * cross(normalW, along)) - uvDepth;
-  float area = first.x * second.y - first.y * second.x;
-  vec2 slope = vec2(first.z * second.y - second.z * first.y, second.z * first.x - first.z * second.x);
+// By how much depth changes along the surface's plane, for each unit of u and v: depth's gradient less those of u and v,
+// as much of each as leaves nothing along the plane. Gradients are multiplied by clip-space w.
+vec2 depthSlope(ShadowMapValues map, vec3 uvDepth, float w, vec3 normalW) {
+  mat4 rows = transpose(map.clipFromWorld);
+  vec3 u = 0.5 * rows[0].xyz - (uvDepth.x - 0.5) * rows[3].xyz;
+  vec3 v = 0.5 * rows[1].xyz - (uvDepth.y - 0.5) * rows[3].xyz;
+  vec3 depth = isDirectional(map) ? w * map.depthPlaneW.xyz : rows[2].xyz - uvDepth.z * rows[3].xyz;
+  vec3 acrossU = cross(normalW, u);
+  float area = dot(acrossU, v);
+  vec2 slope = vec2(dot(cross(depth, v), normalW), dot(acrossU, depth));
   return area == 0.0 ? vec2(0.0) : slope / area;
 }
 
@@ -103,11 +109,6 @@ vec3 inLayers(ShadowMapValues map, vec2 uv) {
   return vec3(map.square.xy + map.square.z * clamp(uv, edge, 1.0 - edge), float(map.place.x));
 }
 
-float shadowComparison(ShadowMapValues map, vec3 uvDepth) {
-  return isDirectional(map) ? texture(directionalShadowMaps, vec4(uvDepth.xy, float(map.place.x), uvDepth.z))
-                            : texture(localShadowMaps, vec4(inLayers(map, uvDepth.xy), uvDepth.z));
-}
-
 // Depth that a point is compared with beside its own place: its own, or that of its plane where that is nearer to the
 // light, so that a plane does not shadow itself; where the plane falls away, another surface that rises there is none
 // of the light's way.
@@ -115,12 +116,39 @@ vec3 besideIt(vec3 uvDepth, vec2 slope, vec2 offset) {
   return uvDepth + vec3(offset, max(dot(slope, offset), 0.0));
 }
 
+#ifdef PLANE_COMPARISON
+// In the order of textureGather(), corner: where the four meet.
+vec4 fourDepths(ShadowMapValues map, vec2 corner) {
+  return isDirectional(map)
+             ? textureGather(directionalShadowDepths, vec3(corner, float(map.place.x)))
+             : textureGather(localShadowDepths, vec3(map.square.xy + map.square.z * corner, float(map.place.x)));
+}
+
+// Planes do not shadow themselves, and need not be moved off for it as far as a texel is wide: what stands off them by
+// less still throws its shadow.
+float shadowComparison(ShadowMapValues map, vec3 uvDepth, vec2 slope) {
+  vec2 place = uvDepth.xy / map.texel.z - 0.5;
+  vec2 first = clamp(floor(place), vec2(0.0), vec2(round(1.0 / map.texel.z) - 2.0));
+  vec4 stored = fourDepths(map, (first + 1.0) * map.texel.z);
+  vec2 before = (first - place) * map.texel.z, after = before + map.texel.z;
+  vec4 rise = slope.x * vec4(before.x, after.x, after.x, before.x) + slope.y * vec4(after.y, after.y, before.y, before.y);
+  vec4 lit = vec4(lessThanEqual(stored, uvDepth.z + max(rise, 0.0)));  // as besideIt()
+  vec2 part = clamp(place - first, 0.0, 1.0), left = mix(lit.wx, lit.zy, part.x);
+  return mix(left.x, left.y, part.y);
+}
+#else
+float shadowComparison(ShadowMapValues map, vec3 uvDepth, vec2 slope) {
+  return isDirectional(map) ? texture(directionalShadowMaps, vec4(uvDepth.xy, float(map.place.x), uvDepth.z))
+                            : texture(localShadowMaps, vec4(inLayers(map, uvDepth.xy), uvDepth.z));
+}
+#endif
+
 // apart: from one comparison to the next, in u and v.
 float filteredShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apart, int radius) {
   float sum = 0.0;
   for (int y = -radius; y <= radius; ++y)
     for (int x = -radius; x <= radius; ++x)
-      sum += shadowComparison(map, besideIt(uvDepth, slope, vec2(x, y) * apart));
+      sum += shadowComparison(map, besideIt(uvDepth, slope, vec2(x, y) * apart), slope);
   float side = 2.0 * float(radius) + 1.0;
   return sum / (side * side);
 }
@@ -144,7 +172,11 @@ Blockers searchBlockers(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apar
   Blockers found = Blockers(0.0, 0.0);
   for (int y = -shadowSearchRadius; y <= shadowSearchRadius; ++y)
     for (int x = -shadowSearchRadius; x <= shadowSearchRadius; ++x) {
-      vec3 beside = besideIt(uvDepth, slope, vec2(x, y) * apart);
+      vec2 offset = vec2(x, y) * apart;
+#ifdef PLANE_COMPARISON
+      offset = (floor((uvDepth.xy + offset) / map.texel.z) + 0.5) * map.texel.z - uvDepth.xy;
+#endif
+      vec3 beside = besideIt(uvDepth, slope, offset);
       float stored = storedDepth(map, beside.xy);
       if (stored <= beside.z) continue;
       found.distance += distanceOf(map, stored);
@@ -222,15 +254,17 @@ ShadowLookup lookUpShadow(uint light, vec3 positionW, vec3 normalW, vec3 toLight
 float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
   ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
   if (!at.found) return 1.0;
-#ifdef SHADOW_FILTER
-  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
-#if SHADOW_FILTER == 1
+#if defined(SHADOW_FILTER) || defined(PLANE_COMPARISON)
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.w, normalW);
+#else
+  const vec2 slope = vec2(0.0);
+#endif
+#ifndef SHADOW_FILTER
+  return shadowComparison(at.map, at.uvDepth, slope);
+#elif SHADOW_FILTER == 1
   return filteredShadow(at.map, at.uvDepth, slope, vec2(at.map.texel.z), shadowFilterRadius);
 #else
   return softShadow(at.map, at.uvDepth, slope, at.w, lightSize(lights[light]));
-#endif
-#else
-  return shadowComparison(at.map, at.uvDepth);
 #endif
 }
 
@@ -277,7 +311,7 @@ vec3 shadowTransmittance(uint light, vec3 positionW, vec3 normalW, vec3 toLightW
   ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
   if (!at.found || at.map.place.z == 0u) return vec3(1.0);
 #ifdef SHADOW_FILTER
-  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.w, normalW);
   vec2 apart = vec2(at.map.texel.z);
 #if SHADOW_FILTER == 2
   vec2 uvOfMetre = at.map.texel.z / texelSize(at.map, at.w);
@@ -295,7 +329,7 @@ vec3 shadowTransmittance(uint light, vec3 positionW, vec3 normalW, vec3 toLightW
 float penumbraOf(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
   ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
   if (!at.found) return 0.0;
-  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.w, normalW);
   float width;
   blockersOf(at.map, at.uvDepth, slope, at.w, lightSize(lights[light]), width);
   return width;

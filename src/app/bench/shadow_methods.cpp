@@ -22,9 +22,12 @@ ShadowMethod pcf(int kernel) {
           .taps = {.perLight = static_cast<double>(kernel * kernel)}};
 }
 
-ShadowMethod pcss(int search, int kernel) {
-  return {.name = fmt::format("pcss {}+{}", search, kernel),
-          .lighting = lighting("pcss", {setting("search", search), setting("kernel", kernel)}),
+// comparison: of TiledLighting; the usual one is the hardware's.
+ShadowMethod pcss(int search, int kernel, const std::string& comparison = "filtered") {
+  const std::string more = comparison == "filtered" ? "" : ", " + comparison;
+  return {.name = fmt::format("pcss {}+{}{}", search, kernel, more),
+          .lighting = lighting("pcss", {setting("search", search), setting("kernel", kernel),
+                                        "comparison=" + comparison}),
           .taps = {.perLight = static_cast<double>(search * search + kernel * kernel)}};
 }
 
@@ -69,13 +72,14 @@ ShadowMethod layered(const Layered& l) {
 const std::vector<ShadowMethod>& methods() {
   static const std::vector<ShadowMethod> all{
       {.name = "lighting alone", .lighting = lighting("none")},
-      {.name = "hard", .lighting = lighting("hard"), .taps = {.perLight = 1}},
+      {.name = "hard", .lighting = lighting("hard", {"comparison=plane"}), .taps = {.perLight = 1}},
       pcf(5),
       pcf(11),
       pcf(23),
       pcss(5, 5),
       pcss(5, 11),
       pcss(5, 23),
+      pcss(5, 11, "plane"),
       // A tap for the blockers' mean depth, one for the share that is blocked.
       {.name = "prefiltered",
        .rows = {{"PrefilteredShadows"}},

@@ -15,6 +15,7 @@ inline const std::string kAlone = "lighting alone", kPcss = "pcss 5+11", kLayere
 inline const std::vector<std::string> kMethods{"hard",
                                                "pcf 5",
                                                kPcss,
+                                               "pcss 5+11, plane",
                                                "prefiltered",
                                                kLayered,
                                                "layered 11, search",

@@ -60,7 +60,7 @@ void Penumbra::execute(graph::PassContext& context, const Params& params, const 
   gpu::Rendering rendering = context.device.render(render::targetsOf(out.widths));
   const gpu::Program& program = programOf(params, lookup);
   rendering.use(program, {.cull = gpu::Cull::None});
-  bindLayerLookup(rendering, program, params, lookup);
+  bindLayerLookup(rendering, program, params, lookup, render::kFilteredReach);
   if (byNearest) {
     rendering.texture("directionalNearestBlockers", ports.nearestBlockers->directional,
                       gpu::kNearest);

@@ -21,7 +21,8 @@ void ShadowMask::describe(graph::PassInfo<Params, Ports>& d) {
 
 const gpu::Program& ShadowMask::programOf(const Params& params, const Ports& ports) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
-                        .fragment = "passes/shadow_mask/shadow_mask.frag"};
+                        .fragment = "passes/shadow_mask/shadow_mask.frag",
+                        .defines = {{"PLANE_COMPARISON", "1"}}};
   if (ports.tiled()) desc.defines["TILE_LIGHTS"] = "1";
   if (params.variant == render::LayeredVariant::Published) desc.defines["PUBLISHED"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
@@ -37,7 +38,7 @@ void ShadowMask::execute(graph::PassContext& context, const Params& params, cons
   const gpu::Program& program = programOf(params, ports);
   rendering.use(program,
                 {.depthTest = true, .depthCompare = gpu::Compare::Less, .cull = gpu::Cull::None});
-  bindLayerLookup(rendering, program, params, ports);
+  bindLayerLookup(rendering, program, params, ports, render::kPlaneReach);
   rendering.fullscreen();
 }
 

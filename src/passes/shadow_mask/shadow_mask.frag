@@ -1,8 +1,10 @@
 // A bit for each layer whose light is blocked.
-//   TILE_LIGHTS  see render/tile_lights.glsl
-//   PUBLISHED    bits are packed and unpacked as in system C
-// variant: TILE_LIGHTS=1
-// variant: PUBLISHED=1
+//   TILE_LIGHTS       see render/tile_lights.glsl
+//   PLANE_COMPARISON  see render/shadows.glsl
+//   PUBLISHED         bits are packed and unpacked as in system C
+// variant: PLANE_COMPARISON=1
+// variant: TILE_LIGHTS=1 PLANE_COMPARISON=1
+// variant: PLANE_COMPARISON=1 PUBLISHED=1
 #include "render/layer_lookup.glsl"
 
 layout(location = 0) out uint mask;

@@ -46,11 +46,14 @@ struct Filter {
   const char* comparison;
   std::string name() const { return fmt::format("{} {}, {}", shadows, kernel, comparison); }
 };
-constexpr std::array<Filter, 6> kFilters{{{"hard", 1, "nearest"},
+constexpr std::array<Filter, 9> kFilters{{{"hard", 1, "nearest"},
                                           {"hard", 1, "filtered"},
+                                          {"hard", 1, "plane"},
                                           {"pcf", 3, "filtered"},
                                           {"pcf", 5, "nearest"},
+                                          {"pcf", 5, "plane"},
                                           {"pcf", 11, "filtered"},
+                                          {"pcf", 11, "plane"},
                                           {"pcf", 23, "filtered"}}};
 
 void setFilter(graph::Pipeline& pipeline, const Filter& filter) {
@@ -172,6 +175,65 @@ TEST_P(Shadows, ACubeThrowsItsShadowWhereItBelongs) {
   for (const vec3 offset :
        {vec3(0.9f, 0, 0), vec3(-0.9f, 0, 0), vec3(0, 0.7f, 0), vec3(0, -0.7f, 0)})
     EXPECT_GT(at(found, scene, middle + offset), 0.01f);
+}
+
+// A slab that stands off a wall by less than a texel of the map is wide, and light that grazes
+// both: only comparisons along the wall's plane tell them apart.
+TEST_P(Shadows, LowReliefThrowsItsShadowByThePlane) {
+  constexpr float kSlab = 0.06f, kAngle = 80.f * kPi / 180.f;  // m off the wall
+  if (GetParam().kind == scene::LightKind::Directional)
+    GTEST_SKIP() << "its maps are fitted to the picture";
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  testing::addBox(scene, {0, 0, -kWall}, {1, 3, 2.f * kSlab});
+  const vec3 target(0, 0, -kWall), edge(-0.5f, 0, -kWall);
+  addLamp(scene, GetParam().kind, target + 4.f * vec3(std::sin(kAngle), 0, std::cos(kAngle)),
+          target);
+  updateTransforms(scene);
+  const float shadow = kSlab * std::tan(kAngle);  // m on the wall, from the slab's edge
+  const auto darkFor = [&](const char* comparison) {
+    graph::Pipeline pipeline = shadowRows();
+    for (graph::PassRow& row : pipeline.passes)
+      if (row.type == "ShadowMaps") row.params["localSize"] = std::int64_t{256};
+    setFilter(pipeline, {"hard", 1, comparison});
+    const Image found = shadowed(scene, pipeline);
+    EXPECT_GT(at(found, scene, edge - vec3(2.f * shadow, 0, 0)), 0.01f);
+    return at(found, scene, edge - vec3(0.4f * shadow, 0, 0)) == 0.f;
+  };
+  EXPECT_TRUE(darkFor("plane"));
+  EXPECT_FALSE(darkFor("filtered"));
+}
+
+// Where normals for shading see a lamp that the surface itself turns away from, in part or all.
+TEST(Horizon, HidesWhatOfALampIsBehindASurfacesPlane) {
+  constexpr float kRadius = 0.2f;
+  for (const float height : {-0.5f, -0.1f, 0.1f, 0.5f}) {  // m over the plane
+    SCOPED_TRACE(height);
+    scene::Scene scene = testing::emptyScene();
+    testing::addWall(scene, kWall);
+    // (1, 0, 0.5) in the world, before the wall's scale.
+    for (vec3& normal : scene.meshes.back().normals) normal = normalize(vec3(10, 0, 0.01f));
+    scene::Light light;
+    light.intensity = 100.f;
+    light.radius = kRadius;
+    testing::addLight(scene, light, {3.f, 0, -kWall + height}, {0, 0, -kWall});
+    updateTransforms(scene);
+    const auto brightness = [&](const std::string& shadows) {
+      graph::Pipeline pipeline = shadowRows();
+      pipeline.passes.back().params["shadows"] = shadows;
+      return testing::centerOf(shadowed(scene, pipeline)).y;
+    };
+    const float open = brightness("none");
+    ASSERT_GT(open, 0.01f);
+    EXPECT_FLOAT_EQ(brightness("hard"), height > 0.f ? open : 0.f);
+    // Of a disc that stands on the plane. Where its centre is behind that, maps say that the wall
+    // blocks all of it.
+    const float t = std::min(height / kRadius, 1.f);
+    const float share =
+        height < 0.f ? 0.f : 0.5f + (t * std::sqrt(1.f - t * t) + std::asin(t)) / kPi;
+    EXPECT_NEAR(brightness("pcss") / open, share, 0.01f);
+  }
+  testing::expectNoDebugMessages();
 }
 
 // The trap: what throws the shadow is not in the picture.

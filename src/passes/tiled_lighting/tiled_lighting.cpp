@@ -29,8 +29,13 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
       .range(3, 47)
       .help("pcss: depths along each side that are searched for blockers, odd.");
   d.param("comparison", &Params::comparison)
-      .choices({"nearest", "filtered"})
-      .help("nearest: with one depth; filtered: the hardware's mean of the four around the point.");
+      .choices({"nearest", "filtered", "plane"})
+      .help(
+          "nearest: with one depth; filtered: the hardware's mean of those with the four around "
+          "the "
+          "point; plane: the same mean, each compared where it lies on the surface's plane, so "
+          "that "
+          "a smaller normalBias does, the factor being the same.");
   render::describeShadowBias(d, &Params::bias, &Params::normalBias);
 }
 
@@ -42,6 +47,18 @@ bool hasMoments(const TiledLighting::Ports& ports) {
 bool hasLayers(const TiledLighting::Ports& ports) {
   return ports.shadowMaps && ports.shadowLayers && ports.shadowMask && ports.layeredShadows &&
          ports.layeredShadows->layers > 0;
+}
+
+float reachOf(TiledLighting::Comparison comparison) {
+  switch (comparison) {
+    case TiledLighting::Comparison::Nearest:
+      return render::kNearestReach;
+    case TiledLighting::Comparison::Filtered:
+      return render::kFilteredReach;
+    case TiledLighting::Comparison::Plane:
+      return render::kPlaneReach;
+  }
+  return render::kFilteredReach;
 }
 
 // SHADOW_FILTER of render/shadows.glsl; 0: without.
@@ -123,6 +140,8 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Params& p
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
   if (ports.shadowMaps && ports.shadowMaps->seesPanes()) desc.defines["SHADOW_TRANSMISSION"] = "1";
+  if (ports.shadowMaps && params.comparison == Comparison::Plane)
+    desc.defines["PLANE_COMPARISON"] = "1";
   if (hasMoments(ports)) desc.defines["PREFILTERED_SHADOWS"] = "1";
   if (hasMoments(ports) && ports.prefilteredShadows->levels) desc.defines["MOMENT_LEVELS"] = "1";
   if (ports.shadowMaps && filterOf(params.shadows) > 0)
@@ -179,7 +198,7 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
   if (ports.shadowMaps) {
     program.set("shadowFilterRadius", params.kernel / 2);
     program.set("shadowSearchRadius", params.search / 2);
-    program.set("shadowReach", params.comparison == Comparison::Filtered ? 1.f : 0.5f);
+    program.set("shadowReach", reachOf(params.comparison));
     if (hasMoments(ports)) {
       program.set("shadowReach", ports.prefilteredShadows->deviation);
       program.set("momentDeviation", ports.prefilteredShadows->deviation);

@@ -2,13 +2,15 @@
 //   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
 //   TILE_LIGHTS         see render/tile_lights.glsl
 //   SHADOWS             shadow maps say how much of each light arrives
-//   SHADOW_FILTER, SHADOW_TRANSMISSION  see render/shadows.glsl
+//   SHADOW_FILTER, PLANE_COMPARISON, SHADOW_TRANSMISSION  see render/shadows.glsl
 //   PREFILTERED_SHADOWS, LAYERED_SHADOWS  see visibility.glsl
 // variant: AMBIENT_VISIBILITY=1
 // variant: TILE_LIGHTS=1
 // variant: SHADOWS=1
 // variant: SHADOWS=1 SHADOW_FILTER=1
 // variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1 SHADOWS=1 SHADOW_FILTER=2
+// variant: SHADOWS=1 PLANE_COMPARISON=1
+// variant: SHADOWS=1 SHADOW_FILTER=2 PLANE_COMPARISON=1
 // variant: SHADOWS=1 PREFILTERED_SHADOWS=1
 // variant: TILE_LIGHTS=1 SHADOWS=1 PREFILTERED_SHADOWS=1 MOMENT_LEVELS=1
 // variant: TILE_LIGHTS=1 SHADOWS=1 LAYERED_SHADOWS=4

@@ -19,7 +19,7 @@ namespace lucerna::passes {
 class TiledLighting {
  public:
   enum class Shadows { None, Hard, Pcf, Pcss, Prefiltered, Layered };
-  enum class Comparison { Nearest, Filtered };
+  enum class Comparison { Nearest, Filtered, Plane };
   struct Params {
     float ambient = 1.f;
     Shadows shadows = Shadows::Pcf;

@@ -63,6 +63,23 @@ Surface shadowedSurface(ivec2 pixel) {
   return s;
 }
 
+// What of a light the surface's own plane hides: maps do not tell, where surfaces turn away from the light and depths hardly
+// differ. Of a disc of the light's radius, which stands across its axis or, without one, across the way to it.
+float shareAboveHorizon(LightValues light, vec3 positionW) {
+  vec3 toLight = light.position.xyz - positionW * light.position.w;
+  float height = dot(toLight, planeNormalW);
+#if defined(LAYERED_SHADOWS) || defined(PREFILTERED_SHADOWS) || SHADOW_FILTER == 2
+  bool spot = light.attenuation.w > -1.0;
+  vec3 axisW = spot ? light.axis.xyz : normalize(toLight);
+  float cosine = dot(planeNormalW, axisW);
+  float upwards = 0.5 * lightSize(light) * sqrt(max(1.0 - cosine * cosine, 0.0));
+  float t = clamp(height / max(upwards, 1e-6), -1.0, 1.0);
+  return 0.5 + (t * sqrt(1.0 - t * t) + asin(t)) / kPi;
+#else
+  return step(0.0, height);
+#endif
+}
+
 // What nothing opaque blocks.
 float unblockedShare(Surface s, uint light, vec3 toLightW) {
 #ifdef LAYERED_SHADOWS
@@ -83,7 +100,7 @@ float unblockedShare(Surface s, uint light, vec3 toLightW) {
 vec3 lightVisibility(Surface s, uint light) {
   LightValues values = lights[light];
   vec3 toLightW = normalize(values.position.xyz - s.positionW * values.position.w);
-  vec3 visible = vec3(unblockedShare(s, light, toLightW));
+  vec3 visible = vec3(unblockedShare(s, light, toLightW) * shareAboveHorizon(values, s.positionW));
 #ifdef SHADOW_TRANSMISSION
   visible *= shadowTransmittance(light, s.positionW, planeNormalW, toLightW);
 #endif
