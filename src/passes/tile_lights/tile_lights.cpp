@@ -23,7 +23,19 @@ void TileLights::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("depth", &Ports::depth)
       .texture(gpu::Format::Depth32F)
       .help("Reversed depth: lights are kept that reach what is seen in a tile.");
+  d.read("normal", &Ports::normal)
+      .texture(gpu::Format::Rg16Unorm)
+      .sameSizeAs("depth")
+      .optional()
+      .help("View-space normal, octahedral: surfaces that face away from a light do not count.");
   d.write("tileLights", &Ports::tileLights).help("A bit for each light in each tile.");
+}
+
+TileLights::TileLights(gpu::Device& device) {
+  gpu::ProgramDesc desc{.compute = "passes/tile_lights/tile_lights.comp"};
+  program_ = device.program(desc);
+  desc.defines["FACING"] = "1";
+  facingProgram_ = device.program(desc);
 }
 
 void TileLights::execute(graph::PassContext& context, const Params&, const Ports& ports) {
@@ -36,11 +48,12 @@ void TileLights::execute(graph::PassContext& context, const Params&, const Ports
   if (!block || block.bytes() < bytes) block = device.createBuffer(bytes, "TileLightBlock");
   {
     gpu::Computing computing = device.compute();
-    computing.use(*program_);
+    computing.use(ports.normal ? *facingProgram_ : *program_);
     computing.buffer("ViewBlock", ports.view->block);
     computing.buffer("LightBlock", ports.lights->block);
     computing.buffer("TileLightBlock", block);
     computing.texture("depth", *ports.depth, gpu::kNearest);
+    if (ports.normal) computing.texture("normal", *ports.normal, gpu::kNearest);
     computing.dispatch(across, up);
   }
   device.barrier();

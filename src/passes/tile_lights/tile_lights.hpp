@@ -14,17 +14,16 @@ class TileLights {
   struct Ports {
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
-    graph::In<gpu::Texture> depth;
+    graph::In<gpu::Texture> depth, normal;
     graph::Out<render::TileLights> tileLights;
   };
 
   static void describe(graph::PassInfo<Params, Ports>& d);
-  explicit TileLights(gpu::Device& device)
-      : program_(device.program({.compute = "passes/tile_lights/tile_lights.comp"})) {}
+  explicit TileLights(gpu::Device& device);
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr program_;
+  gpu::ProgramPtr program_, facingProgram_;  // without normals, with them
 };
 
 }  // namespace lucerna::passes

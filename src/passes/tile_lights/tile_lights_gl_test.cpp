@@ -75,21 +75,27 @@ TEST_F(TileLights, LeaveOutNoLightThatReachesAPixel) {
   }
 }
 
+gpu::Texture uploaded(const Image& image, gpu::Format format) {
+  gpu::Texture texture = testing::device().createTexture(
+      {.format = format, .width = image.width(), .height = image.height()}, "of the G-buffer");
+  testing::device().upload(texture, image);
+  return texture;
+}
+
 // Bits that are set in all tiles.
-std::size_t bitsIn(const scene::Scene& scene, float* meanBits = nullptr) {
+std::size_t bitsIn(const scene::Scene& scene, bool normals = true) {
   testing::SceneRenderer renderer(scene);
   auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
-                                {"GBuffer.depth"});
+                                {"GBuffer.depth", "GBuffer.normal"});
   CHECK(static_cast<bool>(output), "{}", output.error().message);
-  const Image& depth = output->kept.at("GBuffer.depth");
-  const gpu::Texture texture = testing::device().createTexture(
-      {.format = gpu::Format::Depth32F, .width = depth.width(), .height = depth.height()}, "depth");
-  testing::device().upload(texture, depth);
+  const gpu::Texture depth = uploaded(output->kept.at("GBuffer.depth"), gpu::Format::Depth32F);
+  const gpu::Texture normal = uploaded(output->kept.at("GBuffer.normal"), gpu::Format::Rg16Unorm);
   render::TileLights tileLights;
   passes::TileLights::Ports ports;
   ports.view.bind(&renderer.view);
   ports.lights.bind(&renderer.lights);
-  ports.depth.bind(&texture);
+  ports.depth.bind(&depth);
+  if (normals) ports.normal.bind(&normal);
   ports.tileLights.bind(&tileLights);
   graph::PassContext context{.device = testing::device()};
   passes::TileLights(testing::device()).execute(context, {}, ports);
@@ -100,7 +106,6 @@ std::size_t bitsIn(const scene::Scene& scene, float* meanBits = nullptr) {
   std::size_t bits = 0;
   for (std::size_t i = 4; i < words.size(); ++i)
     bits += static_cast<std::size_t>(std::popcount(words[i]));
-  if (meanBits) *meanBits = static_cast<float>(bits) / 20.f;
   return bits;
 }
 
@@ -118,9 +123,8 @@ TEST_F(TileLights, HoldFewLightsThatDoNotReachThem) {
     testing::addLight(scene, light, at, at - vec3(0, 0, 1));
   }
   updateTransforms(scene);
-  float meanBits = 0.f;
-  EXPECT_GT(bitsIn(scene, &meanBits), 20u);
-  EXPECT_LT(meanBits, 15.f) << "of 100 lamps";
+  EXPECT_GT(bitsIn(scene), 20u);
+  EXPECT_LT(bitsIn(scene), 15u * 20u) << "of 100 lamps, in 20 tiles";
 }
 
 // Of a lamp behind the wall, and of one that shines away from it, no tile has a bit.
@@ -139,6 +143,19 @@ TEST_F(TileLights, HoldNoLightThatReachesNothingInSight) {
   testing::addLight(scene, light, {0, 0, -1}, {0, 0, -8});
   updateTransforms(scene);
   EXPECT_GT(bitsIn(scene), 0u);
+}
+
+// A lamp behind the wall that would reach it: only its normals tell.
+TEST_F(TileLights, HoldNoLightThatAllSurfacesFaceAwayFrom) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, 4.f);
+  scene::Light light;
+  light.kind = scene::LightKind::Point;
+  light.range = 5.f;
+  testing::addLight(scene, light, {0, 0, -5}, {0, 0, -8});
+  updateTransforms(scene);
+  EXPECT_EQ(bitsIn(scene), 0u);
+  EXPECT_GT(bitsIn(scene, false), 0u);
 }
 
 }  // namespace
