@@ -43,6 +43,9 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
       .sameSizeAs("depth")
       .halo(halo)
       .help("Hard shadows.");
+  d.read("shadowValues", &Ports::shadowValues)
+      .optional()
+      .help("Bytes of layers, which are blurred in place of bits.");
   d.read("depth", &Ports::depth).texture(Format::Depth32F).halo(halo).help("Reversed depth.");
   d.read("normal", &Ports::normal)
       .texture(Format::Rg16Unorm)
@@ -52,11 +55,21 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
   d.write("layeredShadows", &Ports::layeredShadows).help("What each layer lets through.");
 }
 
-const gpu::Program& ShadowBlur::programOf(const Params& params, bool first, int arrayLayers) {
+namespace {
+
+bool hasValues(const ShadowBlur::Ports& ports) {
+  return ports.shadowValues && ports.shadowValues->layers > 0;
+}
+
+}  // namespace
+
+const gpu::Program& ShadowBlur::programOf(const Params& params, const Ports& ports, bool first) {
+  const int arrayLayers = render::arrayLayersOf(ports.penumbrae->layers);
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = "passes/shadow_blur/shadow_blur.frag",
                         .defines = {{"ARRAY_LAYERS", std::to_string(arrayLayers)}}};
   if (first) desc.defines["OF_MASK"] = "1";
+  if (first && hasValues(ports)) desc.defines["SHADOW_VALUES"] = "1";
   if (params.resolution == render::LayerResolution::Half) desc.defines["HALF_SIZE"] = "1";
   if (params.variant == render::LayeredVariant::Published) desc.defines["PUBLISHED"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
@@ -67,14 +80,15 @@ const gpu::Program& ShadowBlur::programOf(const Params& params, bool first, int 
 void ShadowBlur::blur(const Params& params, const Ports& ports, bool first,
                       const gpu::Texture& to) {
   gpu::Rendering rendering = device_.render(render::targetsOf(to));
-  const gpu::Program& program =
-      programOf(params, first, render::arrayLayersOf(ports.penumbrae->layers));
+  const gpu::Program& program = programOf(params, ports, first);
   rendering.use(program, {.cull = gpu::Cull::None});
   rendering.buffer("ViewBlock", ports.view->block);
   rendering.texture("penumbrae", ports.penumbrae->widths, gpu::kNearest);
   rendering.texture("depth", *ports.depth, gpu::kNearest);
   rendering.texture("normal", *ports.normal, gpu::kNearest);
-  if (first)
+  if (first && hasValues(ports))
+    rendering.texture("shadowValues", ports.shadowValues->bytes, gpu::kNearest);
+  else if (first)
     rendering.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
   else
     rendering.texture("alongX", along_, gpu::kNearest);

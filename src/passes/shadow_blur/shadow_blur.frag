@@ -1,11 +1,14 @@
 // One axis of a separable, anisotropic Gaussian over all layers.
-//   ARRAY_LAYERS  four layers in each
-//   OF_MASK       the first axis, along x: of the mask; without, the second, of what the first has left
-//   HALF_SIZE     each tap gathers the four pixels of the mask that it stands for
-//   PUBLISHED     system C as published: circles instead of ellipses, depths compared as they are stored
+//   ARRAY_LAYERS   four layers in each
+//   OF_MASK        the first axis, along x: of the mask; without, the second, of what the first has left
+//   SHADOW_VALUES  of bytes of layers instead of bits
+//   HALF_SIZE      each tap gathers the four pixels of the mask that it stands for
+//   PUBLISHED      system C as published: circles instead of ellipses, depths compared as they are stored
 // variant: ARRAY_LAYERS=1 OF_MASK=1
 // variant: ARRAY_LAYERS=2 OF_MASK=1 HALF_SIZE=1
 // variant: ARRAY_LAYERS=8 HALF_SIZE=1
+// variant: ARRAY_LAYERS=4 OF_MASK=1 SHADOW_VALUES=1
+// variant: ARRAY_LAYERS=2 OF_MASK=1 SHADOW_VALUES=1 HALF_SIZE=1
 // variant: PUBLISHED=1
 #ifndef ARRAY_LAYERS
 #define ARRAY_LAYERS 1
@@ -15,7 +18,9 @@
 
 uniform sampler2DArray penumbrae;  // m
 uniform int penumbraScale;         // px of the picture for each
-#ifdef OF_MASK
+#ifdef SHADOW_VALUES
+uniform usampler2DArray shadowValues;  // of the picture's size
+#elif defined(OF_MASK)
 uniform usampler2D shadowMask;
 #else
 uniform usampler2DArray alongX;
@@ -90,6 +95,9 @@ float widthOf(ivec2 pixel, int layer) {  // m
   return texelFetch(penumbrae, ivec3(pixel / penumbraScale, layer / 4), 0)[layer % 4];
 }
 
+// Of layer l, in bytes of four layers.
+vec4 shareOf(uvec4 bytes, int l) { return vec4(bytes >> uint(8 * (l % 4)) & 255u) / 255.0; }
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = kScale * texel;
   ivec2 picture = textureSize(depth, 0), last = (picture + kScale - 1) / kScale - 1;
@@ -126,7 +134,9 @@ void main() {
       float metres = float(i) * apart / length1;
 #if defined(OF_MASK) && defined(HALF_SIZE)
       vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(picture);
+#ifndef SHADOW_VALUES
       uvec4 bits = textureGather(shadowMask, corner);
+#endif
       vec4 on = onSurface(tangent, ownDepth, 2 * tap, textureGather(depth, corner));
       if (i == 0) on.w = 1.0;
       float share = 0.25 * dot(on, vec4(1.0));
@@ -141,8 +151,14 @@ void main() {
         float lit = float(texelFetch(alongX, ivec3(tap, l / 4), 0).r >> uint(8 * (l % 4)) & 255u) / 255.0;
         sums[l] += weight * lit;
 #elif defined(HALF_SIZE)
+#ifdef SHADOW_VALUES
+        vec4 blocked = 1.0 - shareOf(textureGather(shadowValues, vec3(corner, l / 4)), l);
+#else
         vec4 blocked = vec4(bits >> uint(l) & 1u);
+#endif
         sums[l] += weight - weight * dot(on, blocked) / max(4.0 * share, 1.0);
+#elif defined(SHADOW_VALUES)
+        sums[l] += weight * shareOf(texelFetch(shadowValues, ivec3(tap, l / 4), 0), l).x;
 #else
         sums[l] += weight * float(~texelFetch(shadowMask, tap, 0).r >> uint(l) & 1u);
 #endif

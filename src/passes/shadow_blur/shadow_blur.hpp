@@ -24,6 +24,7 @@ class ShadowBlur {
     graph::In<render::ViewData> view;
     graph::In<render::Penumbrae> penumbrae;
     graph::In<gpu::Texture> shadowMask, depth, normal;
+    graph::In<render::ShadowValues> shadowValues;
     graph::Out<render::LayeredShadows> layeredShadows;
   };
 
@@ -33,7 +34,7 @@ class ShadowBlur {
 
  private:
   void blur(const Params& params, const Ports& ports, bool first, const gpu::Texture& to);
-  const gpu::Program& programOf(const Params& params, bool first, int arrayLayers);
+  const gpu::Program& programOf(const Params& params, const Ports& ports, bool first);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;
