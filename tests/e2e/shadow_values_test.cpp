@@ -138,7 +138,7 @@ TEST(ShadowValues, OfAPlaneThatNothingBlocksAreNearlyAll) {
     }
   EXPECT_GT(hardBlocked, 0.3 * pixels);
   EXPECT_LT(softBlocked, 0.001 * pixels);
-  EXPECT_GT(sum, 0.9 * pixels);
+  EXPECT_GT(sum, 0.95 * pixels);
   testing::expectNoDebugMessages();
 }
 

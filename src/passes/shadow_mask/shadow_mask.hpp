@@ -14,7 +14,7 @@ class ShadowMask {
   enum class Values { Bits, Exponential };
   struct Params : render::LayerLookupParams {
     Values values = Values::Bits;
-    float falloff = 20.f;  // 1/m
+    float falloff = 40.f;  // 1/m
     render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
   struct Ports : render::LayerLookupPorts {
