@@ -138,7 +138,7 @@ float storedDepth(ShadowMapValues map, vec2 uv) {
 // 1 of a light that nothing blocks, and less the farther the blocker is from the point: exp(-falloff m).
 float exponentialShadow(ShadowMapValues map, vec3 uvDepth, float falloff) {
   float behind = distanceOf(map, uvDepth.z) - distanceOf(map, storedDepth(map, uvDepth.xy));
-  return min(exp(-falloff * behind), 1.0);
+  return exp(-falloff * max(behind, 0.0));
 }
 
 // Of what is nearer to the light around a point.

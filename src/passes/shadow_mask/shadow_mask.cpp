@@ -23,8 +23,7 @@ void ShadowMask::describe(graph::PassInfo<Params, Ports>& d) {
       .choices({"mended", "published"})
       .help(
           "published, of bits: as system C unpacks them, those of each four layers through a byte "
-          "of a "
-          "texture, from which those of some patterns come back wrong.");
+          "of a texture, from which those of some patterns come back wrong.");
   describeLayerLookup(d);
   d.write("shadowMask", &Ports::shadowMask)
       .texture(Format::R32Uint)

@@ -23,7 +23,8 @@ void main() {
     for (; light < lightCount.x; light = lightAfterAt(pixel, light))
       if (mayShadow(light, s)) {
         int layer = lightLayers[light];
-        float share = exponentialVisibility(light, s.positionW, s.planeNormalW, towardsLight(light, s.positionW), falloff);
+        vec3 toLightW = towardsLight(light, s.positionW);
+        float share = exponentialVisibility(light, s.positionW, s.planeNormalW, toLightW, falloff);
         shares[layer] = min(shares[layer], share);  // lights of one layer may overlap: see ShadowLayers.variant
       }
   }
