@@ -49,31 +49,46 @@ void describeShadowBias(graph::PassInfo<Params, Ports>& d, float Params::* bias,
           "keeps a plane from shadowing itself: a comparison's reach there times the slope.");
 }
 
+// A member of Ports, which derives from LayerLookupPorts.
+template <typename Ports, typename Member>
+Member Ports::* lookupPort(Member LayerLookupPorts::* member) {
+  return member;
+}
+
+// The bias of Params, which derives from LayerLookupParams.
+template <typename Params, typename Ports>
+void describeLookupBias(graph::PassInfo<Params, Ports>& d) {
+  describeShadowBias(d, static_cast<float Params::*>(&LayerLookupParams::bias),
+                     static_cast<float Params::*>(&LayerLookupParams::normalBias));
+}
+
+// The ports but for those of the G-buffer and its view.
+template <typename Params, typename Ports>
+void describeLookupLights(graph::PassInfo<Params, Ports>& d) {
+  d.read("lights", lookupPort<Ports>(&LayerLookupPorts::lights)).help("Lights that are on.");
+  d.read("tileLights", lookupPort<Ports>(&LayerLookupPorts::tileLights))
+      .optional()
+      .help("Which lights may reach a pixel; without it each pixel tries them all.");
+  d.read("shadowMaps", lookupPort<Ports>(&LayerLookupPorts::shadowMaps))
+      .optional()
+      .help("What each light sees; without it nothing is blocked.");
+  d.read("shadowLayers", lookupPort<Ports>(&LayerLookupPorts::shadowLayers))
+      .optional()
+      .help("The layer of each light; without it there are none.");
+}
+
 // Params and Ports: derived from those above.
 template <typename Params, typename Ports>
 void describeLayerLookup(graph::PassInfo<Params, Ports>& d) {
-  const auto port = [](auto LayerLookupPorts::* member) {
-    using Member = std::remove_cvref_t<decltype(std::declval<LayerLookupPorts>().*member)>;
-    return static_cast<Member Ports::*>(member);
-  };
-  describeShadowBias(d, static_cast<float Params::*>(&LayerLookupParams::bias),
-                     static_cast<float Params::*>(&LayerLookupParams::normalBias));
-  d.read("view", port(&LayerLookupPorts::view)).help("The view that the G-buffer was drawn from.");
-  d.read("lights", port(&LayerLookupPorts::lights)).help("Lights that are on.");
-  d.read("tileLights", port(&LayerLookupPorts::tileLights))
-      .optional()
-      .help("Which lights may reach a pixel; without it each pixel tries them all.");
-  d.read("shadowMaps", port(&LayerLookupPorts::shadowMaps))
-      .optional()
-      .help("What each light sees; without it nothing is blocked.");
-  d.read("shadowLayers", port(&LayerLookupPorts::shadowLayers))
-      .optional()
-      .help("The layer of each light; without it there are none.");
-  d.read("depth", port(&LayerLookupPorts::depth))
+  describeLookupBias(d);
+  d.read("view", lookupPort<Ports>(&LayerLookupPorts::view))
+      .help("The view that the G-buffer was drawn from.");
+  describeLookupLights(d);
+  d.read("depth", lookupPort<Ports>(&LayerLookupPorts::depth))
       .texture(gpu::Format::Depth32F)
       .halo(1)
       .help("Reversed depth.");
-  d.read("normal", port(&LayerLookupPorts::normal))
+  d.read("normal", lookupPort<Ports>(&LayerLookupPorts::normal))
       .texture(gpu::Format::Rg16Unorm)
       .sameSizeAs("depth")
       .help("View-space normal, octahedral.");

@@ -14,6 +14,14 @@ struct Penumbrae {
   gpu::Texture widths;  // Rgba16Float array; none of no layers
 };
 
+// As hard shadows, but with little weight where what blocks is close by: exp(-falloff (receiver -
+// blocker)), at most 1, of distances from the light.
+struct ShadowValues {
+  static constexpr const char* kPortName = "ShadowValues";
+  int layers = 0;
+  gpu::Texture bytes;  // R32Uint array of the picture's size, four bytes each, shares of 255
+};
+
 // What share of its light each layer lets through: bytes of 0 to 254, as shares of 254; 255: a
 // pixel has no penumbra that shows, and the mask's bit says it.
 struct LayeredShadows {

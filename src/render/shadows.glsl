@@ -163,6 +163,12 @@ float storedDepth(ShadowMapValues map, vec2 uv) {
                             : texture(localShadowDepths, inLayers(map, uv)).r;
 }
 
+// 1 of a light that nothing blocks, and less the farther the blocker is from the point: exp(-falloff m).
+float exponentialShadow(ShadowMapValues map, vec3 uvDepth, float falloff) {
+  float behind = distanceOf(map, uvDepth.z) - distanceOf(map, storedDepth(map, uvDepth.xy));
+  return exp(-falloff * max(behind, 0.0));
+}
+
 // Of what is nearer to the light around a point.
 struct Blockers {
   float distance;  // mean of distanceOf()
@@ -266,6 +272,12 @@ float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) 
 #else
   return softShadow(at.map, at.uvDepth, slope, at.w, lightSize(lights[light]));
 #endif
+}
+
+// falloff: 1/m; see exponentialShadow().
+float exponentialVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW, float falloff) {
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
+  return at.found ? exponentialShadow(at.map, at.uvDepth, falloff) : 1.0;
 }
 
 #ifdef SHADOW_TRANSMISSION

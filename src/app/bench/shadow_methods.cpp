@@ -36,33 +36,41 @@ ShadowMethod pcss(int search, int kernel, const std::string& comparison = "filte
 struct Layered {
   int kernel = 11, search = 0;
   bool full = false, published = false;
+  bool exponential = false, sampled = false;  // values of the mask; penumbrae in the blur
 };
 
 std::string nameOf(const Layered& layered) {
-  return fmt::format("layered {}{}{}{}", layered.kernel, layered.search > 0 ? ", search" : "",
-                     layered.full ? ", full" : "", layered.published ? ", published" : "");
+  return fmt::format("layered {}{}{}{}{}{}", layered.kernel, layered.search > 0 ? ", search" : "",
+                     layered.full ? ", full" : "", layered.published ? ", published" : "",
+                     layered.exponential ? ", exponential" : "",
+                     layered.sampled ? ", sampled" : "");
 }
 
 // Each light is looked up once for the mask. In each pixel of the layers its nearest blocker is
-// read or blockers are searched, and the two axes of the blur read the mask and the layers.
+// read, by each axis if nothing is stored, or blockers are searched, and the two axes of the blur
+// read the mask and the layers. Of bytes the mask is made and blurred by four layers.
 ShadowTaps tapsOf(const Layered& layered) {
   const double share = layered.full ? 1 : 0.25, kernel = layered.kernel;
-  const double blockers = layered.search > 0 ? layered.search * layered.search : 1;
+  const double blockers =
+      layered.search > 0 ? layered.search * layered.search : (layered.sampled ? 2 : 1);
   return {.perLight = 1 + share * blockers,
-          .perPixel = share * kernel,
-          .perFourLayers = 1 + share * kernel};
+          .perPixel = layered.exponential ? 0 : share * kernel,
+          .perFourLayers = layered.exponential ? 2 + 2 * share * kernel : 1 + share * kernel};
 }
 
 ShadowMethod layered(const Layered& l) {
   const std::string resolution = l.full ? "resolution=full" : "resolution=half";
   ShadowMethod method{.name = nameOf(l), .lighting = lighting("layered"), .taps = tapsOf(l)};
   method.rows = {{"ShadowLayers", {"layers=32"}}, {"ShadowMask"}, {"ShadowTiles"}};
+  if (l.exponential) method.rows[1].settings.push_back("values=exponential");
   if (l.search == 0) method.rows.push_back({"NearestBlockers"});
-  method.rows.push_back({"Penumbra", l.search > 0
-                                         ? std::vector{std::string("method=search"),
-                                                       setting("search", l.search), resolution}
-                                         : std::vector{std::string("method=minimum"), resolution}});
+  if (!l.sampled)
+    method.rows.push_back(
+        {"Penumbra", l.search > 0 ? std::vector{std::string("method=search"),
+                                                setting("search", l.search), resolution}
+                                  : std::vector{std::string("method=minimum"), resolution}});
   method.rows.push_back({"ShadowBlur", {setting("kernel", l.kernel), resolution}});
+  if (l.sampled) method.rows.back().settings.push_back("penumbrae=sampled");
   if (l.published)
     for (const char* pass : {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"})
       std::ranges::find(method.rows, pass, &Row::pass)->settings.push_back("variant=published");
@@ -97,6 +105,8 @@ const std::vector<ShadowMethod>& methods() {
       layered({.kernel = 11, .search = 5, .full = true}),
       layered({.kernel = 23, .search = 5, .full = true}),
       layered({.kernel = 11, .published = true}),
+      layered({.kernel = 11, .exponential = true}),
+      layered({.kernel = 11, .sampled = true}),
   };
   return all;
 }

@@ -39,6 +39,10 @@ TEST(ShadowMethods, TapsGrowWithTheSquareOfTheKernelOrNot) {
   // A blur of so many taps more, in a fourth of the pixels: of the mask, and of two times four
   // layers.
   EXPECT_DOUBLE_EQ(taps("layered 23") - taps("layered 11"), 12 * 0.25 * (1 + 2));
+  // Each of three lights once more in a fourth of the pixels.
+  EXPECT_DOUBLE_EQ(taps("layered 11, sampled") - taps("layered 11"), 3 * 0.25);
+  // Bytes of two times four layers in place of the mask, which is made of them.
+  EXPECT_DOUBLE_EQ(taps("layered 11, exponential") - taps("layered 11"), 2 + 11 * 0.25 * (2 - 1));
 }
 
 }  // namespace

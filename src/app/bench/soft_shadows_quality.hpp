@@ -20,7 +20,9 @@ inline const std::vector<std::string> kMethods{"hard",
                                                kLayered,
                                                "layered 11, search",
                                                "layered 11, full",
-                                               "layered 11, published"};
+                                               "layered 11, published",
+                                               "layered 11, exponential",
+                                               "layered 11, sampled"};
 // The reference once more, with other random numbers: what the comparison itself is worth.
 inline const std::string kNoise = "reference";
 

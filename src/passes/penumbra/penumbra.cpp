@@ -23,25 +23,17 @@ void Penumbra::describe(graph::PassInfo<Params, Ports>& d) {
       .choices({"mended", "published"})
       .help("published: as system C has it, with the light's size, in m, as a factor twice.");
   describeLayerLookup(d);
-  d.read("partlyLit", &Ports::partlyLit)
-      .optional()
-      .help("Lights that have penumbrae in a tile; without it all that reach it may.");
-  if (d.values().method == Method::Minimum)
-    d.read("nearestBlockers", &Ports::nearestBlockers)
-        .optional()
-        .help("Small copies of the maps; without it no layer has penumbrae.");
+  describePartlyLit(d);
+  if (d.values().method == Method::Minimum) describeNearestBlockers(d);
   d.write("penumbrae", &Ports::penumbrae).help("Widths in m; of no layers without maps or layers.");
 }
 
-const gpu::Program& Penumbra::programOf(const Params& params,
-                                        const render::LayerLookupPorts& lookup) {
+const gpu::Program& Penumbra::programOf(const Ports& ports) {
   gpu::ProgramDesc desc{
       .vertex = "gpu/fullscreen.vert",
       .fragment = "passes/penumbra/penumbra.frag",
-      .defines = {{"ARRAY_LAYERS", std::to_string(render::arrayLayersOf(lookup.layers()))}}};
-  if (params.method == Method::Minimum) desc.defines["NEAREST_BLOCKERS"] = "1";
-  if (lookup.shadowLayers->shared) desc.defines["SHARED_LAYERS"] = "1";
-  if (lookup.tiled()) desc.defines["TILE_LIGHTS"] = "1";
+      .defines = {{"ARRAY_LAYERS", std::to_string(render::arrayLayersOf(ports.layers()))}}};
+  defineLayerWidths(desc, ports);
   gpu::ProgramPtr& program = programs_[desc];
   if (!program) program = device_.program(desc);
   return *program;
@@ -49,8 +41,6 @@ const gpu::Program& Penumbra::programOf(const Params& params,
 
 void Penumbra::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
   const bool byNearest = params.method == Method::Minimum;
-  render::LayerLookupPorts lookup = ports;
-  if (ports.partlyLit && ports.partlyLit->block) lookup.tileLights = ports.partlyLit;
   render::Penumbrae& out = *ports.penumbrae;
   out.layers = byNearest && !ports.nearestBlockers ? 0 : ports.layers();
   out.scale = scaleOf(params.resolution);
@@ -58,18 +48,11 @@ void Penumbra::execute(graph::PassContext& context, const Params& params, const 
                     out.layers, "penumbrae");
   if (out.layers == 0) return;
   gpu::Rendering rendering = context.device.render(render::targetsOf(out.widths));
-  const gpu::Program& program = programOf(params, lookup);
+  const gpu::Program& program = programOf(ports);
   rendering.use(program, {.cull = gpu::Cull::None});
-  bindLayerLookup(rendering, program, params, lookup, render::kFilteredReach);
-  if (byNearest) {
-    rendering.texture("directionalNearestBlockers", ports.nearestBlockers->directional,
-                      gpu::kNearest);
-    rendering.texture("localNearestBlockers", ports.nearestBlockers->local, gpu::kNearest);
-  } else {
-    program.set("shadowSearchRadius", params.search / 2);
-  }
+  bindLayerWidths(rendering, program, params, ports, params.variant);
+  if (!byNearest) program.set("shadowSearchRadius", params.search / 2);
   program.set("scale", out.scale);
-  program.set("sizeTwice", params.variant == render::LayeredVariant::Published ? 1.f : 0.f);
   rendering.fullscreen();
 }
 

@@ -1,59 +1,20 @@
 // The width of each layer's penumbra.
-//   ARRAY_LAYERS      four layers in each
-//   NEAREST_BLOCKERS  by the minimum filter; without, by a search
-//   SHARED_LAYERS     the mean of what lights of one layer have
-//   TILE_LIGHTS       see render/tile_lights.glsl
+//   ARRAY_LAYERS, NEAREST_BLOCKERS, SHARED_LAYERS, TILE_LIGHTS  see render/layer_widths.glsl
 // variant: ARRAY_LAYERS=3
 // variant: SHARED_LAYERS=1
 // variant: ARRAY_LAYERS=8 TILE_LIGHTS=1 NEAREST_BLOCKERS=1
 #ifndef ARRAY_LAYERS
 #define ARRAY_LAYERS 1
 #endif
-#include "render/layer_lookup.glsl"
-#ifdef NEAREST_BLOCKERS
-#include "render/nearest_blockers.glsl"
-#endif
+#include "render/layer_widths.glsl"
 
-uniform int scale;        // px of the picture for each
-uniform float sizeTwice;  // 1: widths grow with the square of the light's size
+uniform int scale;  // px of the picture for each
 
 layout(location = 0) out vec4 widths[ARRAY_LAYERS];  // m
 
-float widthOf(uint light, SurfacePixel s) {
-  vec3 toLightW = towardsLight(light, s.positionW);
-#ifdef NEAREST_BLOCKERS
-  float width = penumbraOfNearest(light, s.positionW, s.planeNormalW, toLightW);
-#else
-  float width = penumbraOf(light, s.positionW, s.planeNormalW, toLightW);
-#endif
-  return width * mix(1.0, lightSize(lights[light]), sizeTwice);
-}
-
 void main() {
-  uvec2 pixel = uint(scale) * uvec2(gl_FragCoord.xy);
   float width[4 * ARRAY_LAYERS];
-  for (int i = 0; i < 4 * ARRAY_LAYERS; ++i) width[i] = 0.0;
-#ifdef SHARED_LAYERS
-  float blocked = 0.0;
-#endif
-  uint light = isEmpty(ivec2(pixel)) ? lightCount.x : firstLightAt(pixel);
-  // Software rasterisers leave loops early, but run both ways of an if.
-  for (bool once = light < lightCount.x; once; once = false) {
-    SurfacePixel s = surfaceAt(ivec2(pixel));
-    for (; light < lightCount.x; light = lightAfterAt(pixel, light))
-      if (mayShadow(light, s)) {
-#ifdef SHARED_LAYERS
-        float own = widthOf(light, s);
-        blocked += own > 0.0 ? 1.0 : 0.0;
-        width[0] += own;
-#else
-        width[lightLayers[light]] = widthOf(light, s);
-#endif
-      }
-  }
-#ifdef SHARED_LAYERS
-  width[0] /= max(blocked, 1.0);  // there is no other layer
-#endif
+  findWidths(uint(scale) * uvec2(gl_FragCoord.xy), width);
   for (int i = 0; i < ARRAY_LAYERS; ++i)
     widths[i] = vec4(width[4 * i], width[4 * i + 1], width[4 * i + 2], width[4 * i + 3]);
 }

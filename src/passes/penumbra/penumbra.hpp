@@ -3,9 +3,8 @@
 
 #include <map>
 
-#include "render/layer_lookup.hpp"
+#include "render/layer_widths.hpp"
 #include "render/layered_shadows.hpp"
-#include "render/nearest_blockers.hpp"
 
 namespace lucerna::passes {
 
@@ -18,9 +17,7 @@ class Penumbra {
     render::LayerResolution resolution = render::LayerResolution::Half;
     render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
-  struct Ports : render::LayerLookupPorts {
-    graph::In<render::TileLights> partlyLit;
-    graph::In<render::NearestBlockers> nearestBlockers;
+  struct Ports : render::LayerWidthPorts {
     graph::Out<render::Penumbrae> penumbrae;
   };
 
@@ -29,7 +26,7 @@ class Penumbra {
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  const gpu::Program& programOf(const Params& params, const render::LayerLookupPorts& lookup);
+  const gpu::Program& programOf(const Ports& ports);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;

@@ -1,21 +1,33 @@
 // One axis of a separable, anisotropic Gaussian over all layers.
-//   ARRAY_LAYERS  four layers in each
-//   OF_MASK       the first axis, along x: of the mask; without, the second, of what the first has left
-//   HALF_SIZE     each tap gathers the four pixels of the mask that it stands for
-//   PUBLISHED     system C as published: circles instead of ellipses, depths compared as they are stored
+//   ARRAY_LAYERS   four layers in each
+//   OF_MASK        the first axis, along x: of the mask; without, the second, of what the first has left
+//   SHADOW_VALUES  of bytes of layers instead of bits
+//   HALF_SIZE      each tap gathers the four pixels of the mask that it stands for
+//   SAMPLED_PENUMBRAE  widths are looked up here, not read; with it the macros of render/layer_widths.glsl
+//   PUBLISHED      system C as published: circles instead of ellipses, depths compared as they are stored
 // variant: ARRAY_LAYERS=1 OF_MASK=1
 // variant: ARRAY_LAYERS=2 OF_MASK=1 HALF_SIZE=1
 // variant: ARRAY_LAYERS=8 HALF_SIZE=1
+// variant: ARRAY_LAYERS=4 OF_MASK=1 SHADOW_VALUES=1
+// variant: ARRAY_LAYERS=2 OF_MASK=1 SHADOW_VALUES=1 HALF_SIZE=1
 // variant: PUBLISHED=1
+// variant: ARRAY_LAYERS=4 OF_MASK=1 HALF_SIZE=1 SAMPLED_PENUMBRAE=1 NEAREST_BLOCKERS=1 TILE_LIGHTS=1
+// variant: SAMPLED_PENUMBRAE=1 NEAREST_BLOCKERS=1 SHARED_LAYERS=1
 #ifndef ARRAY_LAYERS
 #define ARRAY_LAYERS 1
 #endif
 #include "render/surface_pixel.glsl"
 #include "render/tangent_plane.glsl"
 
+#ifdef SAMPLED_PENUMBRAE
+#include "render/layer_widths.glsl"
+#else
 uniform sampler2DArray penumbrae;  // m
 uniform int penumbraScale;         // px of the picture for each
-#ifdef OF_MASK
+#endif
+#ifdef SHADOW_VALUES
+uniform usampler2DArray shadowValues;  // of the picture's size
+#elif defined(OF_MASK)
 uniform usampler2D shadowMask;
 #else
 uniform usampler2DArray alongX;
@@ -86,17 +98,30 @@ vec4 onSurface(TangentPlane t, float ownDepth, ivec2 first, vec4 depths) {
 #endif
 }
 
+#ifndef SAMPLED_PENUMBRAE
 float widthOf(ivec2 pixel, int layer) {  // m
   return texelFetch(penumbrae, ivec3(pixel / penumbraScale, layer / 4), 0)[layer % 4];
 }
+#endif
+
+// Of layer l, in bytes of four layers.
+vec4 shareOf(uvec4 bytes, int l) { return vec4(bytes >> uint(8 * (l % 4)) & 255u) / 255.0; }
 
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = kScale * texel;
   ivec2 picture = textureSize(depth, 0), last = (picture + kScale - 1) / kScale - 1;
   for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = 0xffffffffu;
   float widest = 0.0, widths[kLayers];  // m
+#ifdef SAMPLED_PENUMBRAE
+  float found[kLayers];
+  findWidths(uvec2(pixel), found);
+#endif
   for (int l = 0; l < kLayers; ++l) {
+#ifdef SAMPLED_PENUMBRAE
+    widths[l] = found[l];
+#else
     widths[l] = widthOf(pixel, l);
+#endif
     widest = max(widest, widths[l]);
   }
   // Software rasterisers leave loops early, but run both ways of an if.
@@ -126,7 +151,9 @@ void main() {
       float metres = float(i) * apart / length1;
 #if defined(OF_MASK) && defined(HALF_SIZE)
       vec2 corner = (2.0 * vec2(tap) + 1.0) / vec2(picture);
+#ifndef SHADOW_VALUES
       uvec4 bits = textureGather(shadowMask, corner);
+#endif
       vec4 on = onSurface(tangent, ownDepth, 2 * tap, textureGather(depth, corner));
       if (i == 0) on.w = 1.0;
       float share = 0.25 * dot(on, vec4(1.0));
@@ -141,8 +168,14 @@ void main() {
         float lit = float(texelFetch(alongX, ivec3(tap, l / 4), 0).r >> uint(8 * (l % 4)) & 255u) / 255.0;
         sums[l] += weight * lit;
 #elif defined(HALF_SIZE)
+#ifdef SHADOW_VALUES
+        vec4 blocked = 1.0 - shareOf(textureGather(shadowValues, vec3(corner, l / 4)), l);
+#else
         vec4 blocked = vec4(bits >> uint(l) & 1u);
+#endif
         sums[l] += weight - weight * dot(on, blocked) / max(4.0 * share, 1.0);
+#elif defined(SHADOW_VALUES)
+        sums[l] += weight * shareOf(texelFetch(shadowValues, ivec3(tap, l / 4), 0), l).x;
 #else
         sums[l] += weight * float(~texelFetch(shadowMask, tap, 0).r >> uint(l) & 1u);
 #endif

@@ -4,26 +4,26 @@
 #include <map>
 #include <string>
 
-#include "graph/pass_info.hpp"
+#include "render/layer_widths.hpp"
 #include "render/layered_shadows.hpp"
-#include "render/shadow_layers.hpp"
-#include "render/view_data.hpp"
 
 namespace lucerna::passes {
 
 class ShadowBlur {
  public:
-  struct Params {
+  enum class From { Stored, Sampled };  // of penumbrae
+  struct Params : render::LayerLookupParams {
+    From penumbrae = From::Stored;
     int kernel = 11;             // taps along each axis, odd
     float maximumRadius = 48.f;  // px of the picture
     float edgeStop = 0.05f;      // m
     render::LayerResolution resolution = render::LayerResolution::Half;
     render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
-  struct Ports {
-    graph::In<render::ViewData> view;
+  struct Ports : render::LayerWidthPorts {  // but for view, depth and normal: of sampled
     graph::In<render::Penumbrae> penumbrae;
-    graph::In<gpu::Texture> shadowMask, depth, normal;
+    graph::In<gpu::Texture> shadowMask;
+    graph::In<render::ShadowValues> shadowValues;
     graph::Out<render::LayeredShadows> layeredShadows;
   };
 
@@ -33,7 +33,9 @@ class ShadowBlur {
 
  private:
   void blur(const Params& params, const Ports& ports, bool first, const gpu::Texture& to);
-  const gpu::Program& programOf(const Params& params, bool first, int arrayLayers);
+  const gpu::Program& programOf(const Params& params, const Ports& ports, bool first);
+  void bind(gpu::Rendering& rendering, const gpu::Program& program, const Params& params,
+            const Ports& ports, bool first);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;

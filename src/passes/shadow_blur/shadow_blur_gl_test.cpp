@@ -27,61 +27,92 @@ double visibleShareOfDisc(double t) {
   return 0.5 + (t * std::sqrt(1. - t * t) + std::asin(t)) / static_cast<double>(kPi);
 }
 
-// shadows: of TiledLighting, with what it needs.
+void set(graph::Pipeline& pipeline, const std::string& type, const std::string& param,
+         const graph::Value& value) {
+  for (graph::PassRow& row : pipeline.passes)
+    if (row.type == type) row.params[param] = value;
+}
+
+// shadows: of TiledLighting, with what it needs; layered ones also of "exponential" values and by
+// penumbrae that are "sampled".
 graph::Pipeline softRows(const std::string& shadows) {
   std::vector<std::string> types{"Cull", "GBuffer", "ShadowMaps", "TileLights", "TiledLighting"};
+  const bool sampled = shadows == "sampled";
+  const bool layered = shadows == "layered" || shadows == "exponential" || sampled;
   if (shadows == "none") std::erase(types, "ShadowMaps");
-  if (shadows == "layered")
-    types.insert(types.end() - 1, {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"});
+  if (layered)
+    types.insert(types.end() - 1, {"ShadowLayers", "ShadowMask",
+                                   sampled ? "NearestBlockers" : "Penumbra", "ShadowBlur"});
   if (shadows == "prefiltered") types.insert(types.end() - 1, "PrefilteredShadows");
   graph::Pipeline pipeline = testing::rows(types);
-  pipeline.passes.back().params = {
-      {"shadows", shadows}, {"kernel", std::int64_t{23}}, {"search", std::int64_t{11}}};
-  for (graph::PassRow& row : pipeline.passes) {
-    if (row.type == "ShadowLayers") row.params["layers"] = std::int64_t{32};
-    if (row.type == "Penumbra") row.params["search"] = std::int64_t{11};
-    if (row.type == "ShadowBlur") row.params["kernel"] = std::int64_t{23};
-  }
+  pipeline.passes.back().params = {{"shadows", layered ? std::string("layered") : shadows},
+                                   {"kernel", std::int64_t{23}},
+                                   {"search", std::int64_t{11}}};
+  set(pipeline, "ShadowLayers", "layers", std::int64_t{32});
+  set(pipeline, "Penumbra", "search", std::int64_t{11});
+  set(pipeline, "ShadowBlur", "kernel", std::int64_t{23});
+  if (shadows == "exponential") set(pipeline, "ShadowMask", "values", shadows);
+  if (sampled) set(pipeline, "ShadowBlur", "penumbrae", shadows);
   return pipeline;
+}
+
+// The half-plane's edge is half way between the lamp's plane and the wall, at x = 0.
+constexpr float kLampX = -1.f;
+scene::Scene halfPlane(float radius) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  testing::addBox(scene, {-20.f, 0, -0.5f * kWall}, {40, 40, 1e-3f});
+  addLamp(scene, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
+  scene.lights.back().radius = radius;
+  updateTransforms(scene);
+  return scene;
+}
+
+// Share of the light that arrives along the middle row.
+std::vector<double> middleRow(const scene::Scene& scene, const graph::Pipeline& pipeline,
+                              uvec2 size) {
+  const auto picture = [&](const graph::Pipeline& rows) {
+    return testing::asFloatRgb(testing::valueOf(scene, rows, size, "TiledLighting.color"));
+  };
+  const Image soft = picture(pipeline), lit = picture(softRows("none"));
+  std::vector<double> shares;
+  for (int x = 0; x < soft.width(); ++x)
+    shares.push_back(soft.pixel<float>(x, soft.height() / 2)[1] /
+                     lit.pixel<float>(x, soft.height() / 2)[1]);
+  return shares;
+}
+
+// Of a wall before the camera, m.
+float metresAcross(const scene::Scene& scene, uvec2 size) {
+  return 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY) * static_cast<float>(size.x) /
+         static_cast<float>(size.y);
 }
 
 class SoftShadows : public ::testing::TestWithParam<std::string> {
  protected:
   void TearDown() override { testing::expectNoDebugMessages(); }
 };
-INSTANTIATE_TEST_SUITE_P(By, SoftShadows, ::testing::Values("pcss", "prefiltered", "layered"),
+INSTANTIATE_TEST_SUITE_P(By, SoftShadows,
+                         ::testing::Values("pcss", "prefiltered", "layered", "exponential",
+                                           "sampled"),
                          [](const auto& parameter) { return parameter.param; });
 
 TEST_P(SoftShadows, ArePenumbraeOfTheRightWidth) {
   constexpr uvec2 kPicture{513, 129};
-  constexpr float kLampX = -1.f, kEdgeX = 0.f, kHalfWay = 0.5f * kWall;
   for (const float radius : {0.2f, 0.4f, 0.8f}) {
     SCOPED_TRACE(radius);
-    scene::Scene scene = testing::emptyScene();
-    testing::addWall(scene, kWall);
-    testing::addBox(scene, {kEdgeX - 20.f, 0, -kHalfWay}, {40, 40, 1e-3f});
-    addLamp(scene, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall});
-    scene.lights.back().radius = radius;
-    updateTransforms(scene);
-    const auto rowOf = [&](const std::string& shadows) {
-      graph::Pipeline pipeline = softRows(shadows);
-      for (graph::PassRow& row : pipeline.passes)
-        if (row.type == "ShadowMaps") row.params["localSize"] = std::int64_t{2048};
-      return testing::asFloatRgb(
-          testing::valueOf(scene, pipeline, kPicture, "TiledLighting.color"));
-    };
-    const Image lit = rowOf("none"), soft = rowOf(GetParam());
-    const float aspect = static_cast<float>(kPicture.x) / static_cast<float>(kPicture.y);
-    const float width = 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY) * aspect;  // m
-    const float middle = kEdgeX + (kEdgeX - kLampX);  // as far behind the edge as before it
+    const scene::Scene scene = halfPlane(radius);
+    graph::Pipeline pipeline = softRows(GetParam());
+    set(pipeline, "ShadowMaps", "localSize", std::int64_t{2048});
+    const std::vector<double> shares = middleRow(scene, pipeline, kPicture);
+    const float width = metresAcross(scene, kPicture);
+    const float middle = -kLampX;  // as far behind the edge as before it
     double worst = 0;
     int within = 0;
     for (int x = kPicture.x / 2 + 2; x < static_cast<int>(kPicture.x); ++x) {
       const float at = width * ((static_cast<float>(x) + 0.5f) / kPicture.x - 0.5f);
       const double share = visibleShareOfDisc((at - middle) / radius);
-      const int y = kPicture.y / 2;
-      const double found = soft.pixel<float>(x, y)[1] / lit.pixel<float>(x, y)[1];
-      worst = std::max(worst, std::abs(found - share));
+      worst = std::max(worst, std::abs(shares[static_cast<std::size_t>(x)] - share));
       within += std::abs(at - middle) < radius;
     }
     EXPECT_GT(within, 3);
@@ -121,6 +152,174 @@ TEST_P(SoftShadows, OfLampsTogetherAreThoseOfEachAlone) {
   }
   EXPECT_GT(brightest, 0.5);
   EXPECT_LT(worst, 2. / 255. * brightest);
+}
+
+// Where blockers are far in front bytes are those of bits, and so are penumbrae.
+TEST(ShadowBlur, OfExponentialValuesHasThePenumbraeOfBits) {
+  constexpr uvec2 kPicture{257, 65};
+  for (const std::string resolution : {"half", "full"})
+    for (const float radius : {0.2f, 0.8f}) {
+      SCOPED_TRACE(fmt::format("{}, radius {}", resolution, radius));
+      const scene::Scene scene = halfPlane(radius);
+      std::vector<double> shares[2];
+      for (const bool exponential : {false, true}) {
+        graph::Pipeline pipeline = softRows(exponential ? "exponential" : "layered");
+        set(pipeline, "ShadowBlur", "resolution", resolution);
+        shares[exponential] = middleRow(scene, pipeline, kPicture);
+      }
+      double worst = 0;
+      for (std::size_t x = 0; x < kPicture.x; ++x)
+        worst = std::max(worst, std::abs(shares[0][x] - shares[1][x]));
+      EXPECT_LT(worst, 0.01);
+    }
+  testing::expectNoDebugMessages();
+}
+
+// A blocker as far before the wall as leaves a third of the light: nothing but bytes tells.
+TEST(ShadowBlur, KeepsWhatExponentialValuesLetThrough) {
+  constexpr uvec2 kPicture{257, 65};
+  const scene::Scene scene = halfPlane(0.4f);
+  const double share = 1. / 3.;
+  for (const std::string resolution : {"half", "full"}) {
+    SCOPED_TRACE(resolution);
+    graph::Pipeline pipeline = softRows("exponential");
+    set(pipeline, "ShadowMask", "falloff", -std::log(share) / (0.5 * kWall));
+    set(pipeline, "ShadowBlur", "resolution", resolution);
+    const std::vector<double> shares = middleRow(scene, pipeline, kPicture);
+    const double pixels = kPicture.x / static_cast<double>(metresAcross(scene, kPicture));
+    const auto at = [&](double metres) {
+      return shares[static_cast<std::size_t>(0.5 * kPicture.x + metres * pixels)];
+    };
+    const double middle = -static_cast<double>(kLampX);
+    EXPECT_NEAR(at(middle - 0.35), share, 0.05);
+    EXPECT_NEAR(at(middle), 0.5 * (1 + share), 0.08);
+    EXPECT_NEAR(at(middle + 0.5), 1., 0.01);
+  }
+  testing::expectNoDebugMessages();
+}
+
+// Lamps of all sizes above two boxes before a wall.
+scene::Scene lampsOfAllSizes() {
+  constexpr int kLamps = 9;
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  testing::addBox(scene, {0, 0, -4}, vec3(0.7f));
+  testing::addBox(scene, {0.6f, 0.4f, -5}, vec3(0.3f));
+  for (int i = 0; i < kLamps; ++i) {
+    addLamp(scene, {0.4f * static_cast<float>(i - kLamps / 2), 0.8f, -1.f}, {0, 0, -kWall});
+    scene.lights.back().radius = 0.05f * static_cast<float>(i + 1);
+    scene.lights.back().intensity = 5.f;
+  }
+  updateTransforms(scene);
+  return scene;
+}
+
+// Of the brightest.
+float largestDifference(const Image& a, const Image& b) {
+  float largest = 0, brightest = 0;
+  for (std::size_t i = 0; i < a.as<float>().size(); ++i) {
+    largest = std::max(largest, std::abs(a.as<float>()[i] - b.as<float>()[i]));
+    brightest = std::max(brightest, a.as<float>()[i]);
+  }
+  return largest / brightest;
+}
+
+// Each layer has its own byte. At edges bits are the mean of four depths, values are of the nearest.
+TEST(ShadowBlur, OfExponentialValuesOfManyLampsIsThatOfBits) {
+  const scene::Scene scene = lampsOfAllSizes();
+  for (const std::string resolution : {"half", "full"}) {
+    SCOPED_TRACE(resolution);
+    Image pictures[2];
+    for (const bool exponential : {false, true}) {
+      graph::Pipeline pipeline = softRows(exponential ? "exponential" : "layered");
+      set(pipeline, "ShadowBlur", "resolution", resolution);
+      pictures[exponential] =
+          testing::asFloatRgb(testing::valueOf(scene, pipeline, {161, 97}, "TiledLighting.color"));
+    }
+    EXPECT_LT(largestDifference(pictures[0], pictures[1]), 0.03f);
+  }
+  testing::expectNoDebugMessages();
+}
+
+// What is sampled is what Penumbra stores, but for the rounding of half floats.
+TEST(ShadowBlur, OfSampledPenumbraeIsThatOfStoredOnes) {
+  const scene::Scene scene = lampsOfAllSizes();
+  const auto picture = [&](const graph::Pipeline& pipeline) {
+    return testing::asFloatRgb(testing::valueOf(scene, pipeline, {161, 97}, "TiledLighting.color"));
+  };
+  const Image hard = picture(softRows("hard"));
+  for (const bool tiles : {false, true})
+    for (const std::string resolution : {"half", "full"})
+      for (const std::string variant : {"mended", "published"}) {
+        SCOPED_TRACE(fmt::format("tiles {}, {}, {}", tiles, resolution, variant));
+        graph::Pipeline pipeline = softRows("sampled");
+        const auto blur = std::ranges::find(pipeline.passes, "ShadowBlur", &graph::PassRow::type);
+        blur->params["resolution"] = resolution, blur->params["variant"] = variant;
+        if (tiles) pipeline.passes.insert(blur, testing::rows({"ShadowTiles"}).passes[0]);
+        const Image sampled = picture(pipeline);
+        graph::PassRow penumbra = testing::rows({"Penumbra"}).passes[0];
+        penumbra.params = {
+            {"method", std::string("minimum")}, {"resolution", resolution}, {"variant", variant}};
+        pipeline.passes.insert(
+            std::ranges::find(pipeline.passes, "ShadowBlur", &graph::PassRow::type), penumbra);
+        set(pipeline, "ShadowBlur", "penumbrae", std::string("stored"));
+        EXPECT_LT(largestDifference(picture(pipeline), sampled), 1.f / 255.f);
+        EXPECT_GT(largestDifference(hard, sampled), 0.03f);
+      }
+  testing::expectNoDebugMessages();
+}
+
+// As published, circles shrink with the surface's slope, here to half: a shadow's edge that runs
+// along the view over a floor is half as soft as an ellipse makes it.
+TEST(ShadowBlur, AsPublishedIsACircleThatShrinksOnGrazedSurfaces) {
+  constexpr uvec2 kPicture{512, 128};
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, 30.f);
+  testing::addBox(scene, {0, -1.05f, -10}, {40, 0.1f, 40});  // the floor, a metre below the eye
+  testing::addBox(scene, {-20, 1, -10}, {40, 1e-3f, 40});
+  addLamp(scene, {0, 5, -6}, {0, -1, -6.1f});
+  scene.lights.back().radius = 1.2f;
+  updateTransforms(scene);
+  double widths[2];
+  for (const bool published : {false, true}) {
+    graph::Pipeline pipeline = softRows("layered");
+    set(pipeline, "ShadowBlur", "resolution", std::string("full"));
+    set(pipeline, "ShadowBlur", "variant", std::string(published ? "published" : "mended"));
+    const auto picture = [&](const graph::Pipeline& rows) {
+      return testing::asFloatRgb(testing::valueOf(scene, rows, kPicture, "TiledLighting.color"));
+    };
+    const Image soft = picture(pipeline), lit = picture(softRows("none"));
+    const int y = 86;  // px, some 6 m away
+    int within = 0;
+    for (int x = soft.width() / 2 - 80; x < soft.width() / 2 + 80; ++x) {
+      const float share = soft.pixel<float>(x, y)[1] / lit.pixel<float>(x, y)[1];
+      within += share > 0.1f && share < 0.9f;
+    }
+    widths[published] = within;
+  }
+  EXPECT_GT(widths[0], 16);
+  EXPECT_NEAR(widths[1] / widths[0], 0.5, 0.1);
+  testing::expectNoDebugMessages();
+}
+
+// As published, depths are compared as they are stored: far from the eye those of two surfaces are
+// the same, and light of the half-plane gets into the shadow beside it.
+TEST(ShadowBlur, AsPublishedTellsNoSurfacesApartFarAway) {
+  constexpr uvec2 kPicture{257, 65};
+  const scene::Scene scene = halfPlane(0.4f);
+  double lightest[2];
+  for (const bool published : {false, true}) {
+    graph::Pipeline pipeline = softRows("layered");
+    set(pipeline, "ShadowBlur", "resolution", std::string("full"));
+    set(pipeline, "ShadowBlur", "variant", std::string(published ? "published" : "mended"));
+    const std::vector<double> shares = middleRow(scene, pipeline, kPicture);
+    // Right of the half-plane's edge the wall is dark up to 0.6 m.
+    const std::size_t edge = kPicture.x / 2 + 2;
+    lightest[published] = *std::max_element(shares.begin() + edge, shares.begin() + edge + 3);
+  }
+  EXPECT_LT(lightest[0], 0.01);
+  EXPECT_GT(lightest[1], 0.1);
+  testing::expectNoDebugMessages();
 }
 
 // Two spots side by side on a wall, each with a cube in its light: one layer is enough for both
