@@ -26,7 +26,8 @@ inline const std::vector<std::string> kMethods{"hard",
 // The reference once more, with other random numbers: what the comparison itself is worth.
 inline const std::string kNoise = "reference";
 
-inline const std::string kHall = "atrium, 16 lights", kManyLights = "atrium, 64 lights";
+inline const std::string kHall = "atrium, 16 lights", kManyLights = "atrium, 64 lights",
+                         kMoving = "atrium, a tenth moves";
 // A scene of builtin:penumbra, whose penumbrae are known.
 struct KnownScene {
   std::string name, query;

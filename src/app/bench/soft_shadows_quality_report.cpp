@@ -198,6 +198,14 @@ std::vector<Block> report(const Results& results) {
       results, "How far other lights change a light's visibility, most of all pixels, steps of 255",
       "others_steps", &Spread::max));
   blocks.emplace_back(widthsTable(results));
+  if (!results.samples({kAlone, kMoving}, "flicker").empty())
+    blocks.emplace_back(tableOf(
+        "Flicker where a tenth of the objects moves, 120 frames at 30 a second: how far a frame is "
+        "from what lies between "
+        "those before and after it, steps of 255, median (worst frame)",
+        "scene", {kMoving}, allMethods(), [&](const std::string& scene, const std::string& method) {
+          return worstText(results.samples({method, scene}, "flicker"));
+        }));
   blocks.emplace_back(flipPlot(results, results.parts(1).front()));
   return blocks;
 }

@@ -176,13 +176,16 @@ Status measureExponents(Run& run) {
   return {};
 }
 
+void addVariant(Run& run, const std::string& method, const ShadowFrame& frame,
+                const std::string& output) {
+  Chain chain = chainOf(shadowMethod(method), frame);
+  chain.output = output;
+  run.add({method, run.scene},
+          {.chain = chain, .size = run.extent.sizes.front(), .profiled = true});
+}
+
 void addVariants(Run& run, const ShadowFrame& frame, const std::string& output) {
-  for (const std::string& method : allMethods()) {
-    Chain chain = chainOf(shadowMethod(method), frame);
-    chain.output = output;
-    run.add({method, run.scene},
-            {.chain = chain, .size = run.extent.sizes.front(), .profiled = true});
-  }
+  for (const std::string& method : allMethods()) addVariant(run, method, frame, output);
 }
 
 // Lighting and all that is there for its shadows, but their maps.
@@ -272,6 +275,32 @@ Status measureLights(Run& run, Truth& truth) {
   return {};
 }
 
+// Of what moves, how unsteadily each method's pictures change. Methods one after another, so that
+// maps follow what moves.
+Status measureFlicker(Run& run) {
+  constexpr int kFrames = 120;
+  constexpr double kFramesASecond = 30;
+  const float exposure = run.stage.scene().exposure;
+  for (const std::string& method : allMethods()) {
+    addVariant(run, method, kFrame, "");
+    std::vector<Image> last;
+    for (int frame = 0; frame < kFrames; ++frame) {
+      run.stage.at(frame / kFramesASecond);
+      LUCERNA_TRY_VOID(run.drawEach([](const Name&) { return true; },
+                                    [&](const Name& name, const Image& picture) {
+                                      last.push_back(exposed(picture, exposure));
+                                      if (last.size() < 3) return;
+                                      run.results.at(name).count(
+                                          "flicker", 255 * flickerOf(last[0], last[1], last[2]));
+                                      last.erase(last.begin());
+                                    }));
+    }
+    run.clear();
+  }
+  run.stage.at(0);
+  return {};
+}
+
 // Measurements are named by method and scene.
 Status measure(Run& run) {
   for (const SeededCamera& camera : run.cameras) {
@@ -281,6 +310,7 @@ Status measure(Run& run) {
     run.clear();
     LUCERNA_TRY_VOID(measureLights(run, truth));
     run.clear();
+    if (run.scene == kMoving) LUCERNA_TRY_VOID(measureFlicker(run));
   }
   return {};
 }
@@ -290,7 +320,9 @@ Status measure(Run& run) {
 Suite softShadowsQualitySuite() {
   std::vector<SceneChoice> scenes{
       {.name = kHall, .path = "builtin:atrium", .quickSizes = {{640, 360}}},
-      {.name = kManyLights, .path = "builtin:atrium?lights=64"}};
+      {.name = kManyLights, .path = "builtin:atrium?lights=64"},
+      {.name = "atrium, 256 lights", .path = "builtin:atrium?lights=256", .quick = false},
+      {.name = kMoving, .path = "builtin:atrium?moving=0.1", .quick = false, .moving = true}};
   for (const KnownScene& known : knownScenes())
     scenes.push_back({.name = known.name,
                       .path = "builtin:penumbra?" + known.query,

@@ -106,7 +106,7 @@ Result<std::unique_ptr<Stage>> Stage::open(const StageSettings& settings) {
   render.timeStep = 0;
   LUCERNA_TRY(session, openSession(render));
   scene::Scene& scene = session->scene;
-  scene.animations.clear();  // every frame shows the same moment
+  if (!settings.moving) scene.animations.clear();
   if (settings.lighting == Lighting::Sun)
     lightBySun(scene, glm::radians(settings.elevationDegrees),
                glm::radians(settings.azimuthDegrees));

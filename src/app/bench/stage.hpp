@@ -74,6 +74,7 @@ struct StageSettings {
   Lighting lighting = Lighting::Sun;
   float elevationDegrees = 40, azimuthDegrees = 30;  // of the sun: 0 is -z, 90 is +x
   Surfaces surfaces = Surfaces::Own;
+  bool moving = false;  // its animations play: see Stage::at(); else every frame shows their start
 };
 
 class Stage {
@@ -89,6 +90,10 @@ class Stage {
 
   // Changes lights or ambient light of the scene, and nothing else.
   void relight(const std::function<void(scene::Scene& scene)>& change);
+
+  // The moment that the next frames show, s. A variant's maps follow what moves from one of its
+  // frames to its next only if no other variant is drawn between them.
+  void at(double seconds) { session_->settings.time = seconds; }
 
   // From where the next frames are seen. sight: m, see SeededCamera; rows' lengths follow from it.
   Status look(const CameraPose& pose, float sight = 1.f);

@@ -201,5 +201,26 @@ TEST(Stage, ASampleTellsOfShadows) {
       << "maps and the mask";
 }
 
+TEST(Stage, ShowsTheMomentThatIsAskedForWhereThingsMove) {
+  for (const bool moving : {false, true}) {
+    StageSettings settings{.render = {}, .lighting = Lighting::Own, .moving = moving};
+    settings.render.scene = "builtin:atrium?moving=0.3";
+    auto stage = Stage::open(settings);
+    ASSERT_TRUE(stage) << stage.error().message;
+    const auto number = (*stage)->add({.chain = kDeferred, .size = kSize});
+    ASSERT_TRUE(number);
+    ASSERT_TRUE((*stage)->look(ownCameras((*stage)->scene(), 1)[0].pose));
+    const auto shown = [&](double seconds) {
+      Image picture;
+      (*stage)->at(seconds);
+      EXPECT_TRUE((*stage)->draw(*number, &picture));
+      return picture;
+    };
+    const Image start = shown(0), later = shown(2), again = shown(0);
+    EXPECT_EQ(std::ranges::equal(start.bytes(), later.bytes()), !moving);
+    EXPECT_TRUE(std::ranges::equal(start.bytes(), again.bytes()));
+  }
+}
+
 }  // namespace
 }  // namespace lucerna::app::bench

@@ -60,7 +60,8 @@ Status measure(const Suite& suite, const SceneChoice& scene, const BenchOptions&
                          .lighting = suite.lighting,
                          .elevationDegrees = scene.elevationDegrees,
                          .azimuthDegrees = scene.azimuthDegrees,
-                         .surfaces = suite.surfaces};
+                         .surfaces = suite.surfaces,
+                         .moving = scene.moving};
   if (scene.translucent && suite.surfaces == Surfaces::Plain)
     settings.surfaces = Surfaces::PlainAndTranslucent;
   settings.render.scene = scene.path;

@@ -25,6 +25,7 @@ struct SceneChoice {
   std::vector<uvec2> sizes = {}, quickSizes = {};    // px, instead of the suite's; empty: those
   bool quick = true;                                 // measured by --quick, too
   bool translucent = false;  // its translucent surfaces stay where others are plain
+  bool moving = false;       // its animations play: see Stage::at()
 };
 
 // Where a scene is seen from.

@@ -157,6 +157,15 @@ Image nearDepthEdges(const Image& reversedDepth, int within) {
   return near;
 }
 
+double flickerOf(const Image& before, const Image& now, const Image& after) {
+  const auto a = before.as<float>(), b = now.as<float>(), c = after.as<float>();
+  double sum = 0;
+  for (std::size_t i = 0; i < b.size(); ++i)
+    sum += std::abs(static_cast<double>(a[i]) - 2 * static_cast<double>(b[i]) +
+                    static_cast<double>(c[i]));
+  return b.empty() ? 0 : sum / static_cast<double>(b.size());
+}
+
 double largestDifference(const Image& a, const Image& b, const Image& lit) {
   const auto first = a.as<float>(), second = b.as<float>();
   const auto counts = lit.as<std::uint8_t>();

@@ -44,6 +44,10 @@ ShadowFaults shadowFaults(const VisibilityPair& pair, const Image& nearEdge);
 // where there is nothing; it is linear over a plane's picture. Returns U8, 255 there.
 Image nearDepthEdges(const Image& reversedDepth, int within);
 
+// How far three pictures in equal steps of time are from a steady change: the mean of |before -
+// 2 now + after| over all pixels and channels. F32, of one size.
+double flickerOf(const Image& before, const Image& now, const Image& after);
+
 // Largest difference of two visibilities where lit.
 double largestDifference(const Image& a, const Image& b, const Image& lit);
 

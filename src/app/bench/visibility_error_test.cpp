@@ -149,5 +149,13 @@ TEST(PenumbraWidth, IsUnknownWhereNothingIsCrossedOrSeen) {
   EXPECT_FALSE(penumbraWidth(image, fromAbove(), {-3, 0, 0}, {3, 0, 0}));
 }
 
+TEST(Flicker, IsWhatASteadyChangeDoesNotHave) {
+  const auto all = [](float value) { return picture([=](int, int) { return value; }); };
+  EXPECT_NEAR(flickerOf(all(0.25f), all(0.5f), all(0.75f)), 0, 1e-6);
+  EXPECT_NEAR(flickerOf(all(0.25f), all(0.75f), all(0.25f)), 1, 1e-6);
+  const Image half = picture([](int x, int) { return x < kWidth / 2 ? 1.f : 0.f; });
+  EXPECT_NEAR(flickerOf(all(0.f), half, all(0.f)), 1, 1e-6);
+}
+
 }  // namespace
 }  // namespace lucerna::app::bench
