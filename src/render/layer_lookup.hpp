@@ -51,9 +51,10 @@ void describeShadowBias(graph::PassInfo<Params, Ports>& d, float Params::* bias,
           "keeps a plane from shadowing itself: a comparison's reach there times the slope.");
 }
 
-// Params and Ports: derived from those above.
+// Params and Ports: derived from those above. around: px, how far from a pixel others are looked up
+// for it, too.
 template <typename Params, typename Ports>
-void describeLayerLookup(graph::PassInfo<Params, Ports>& d) {
+void describeLayerLookup(graph::PassInfo<Params, Ports>& d, int around = 0) {
   const auto port = [](auto LayerLookupPorts::* member) {
     using Member = std::remove_cvref_t<decltype(std::declval<LayerLookupPorts>().*member)>;
     return static_cast<Member Ports::*>(member);
@@ -73,11 +74,12 @@ void describeLayerLookup(graph::PassInfo<Params, Ports>& d) {
       .help("The layer of each light; without it there are none.");
   d.read("depth", port(&LayerLookupPorts::depth))
       .texture(gpu::Format::Depth32F)
-      .halo(1)
+      .halo(around + 1)
       .help("Reversed depth.");
   d.read("normal", port(&LayerLookupPorts::normal))
       .texture(gpu::Format::Rg16Unorm)
       .sameSizeAs("depth")
+      .halo(around)
       .help("View-space normal, octahedral.");
 }
 

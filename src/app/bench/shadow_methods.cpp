@@ -59,7 +59,8 @@ ShadowMethod layered(const Layered& l) {
                                          ? std::vector{std::string("method=search"),
                                                        setting("search", l.search), resolution}
                                          : std::vector{std::string("method=minimum"), resolution}});
-  method.rows.push_back({"ShadowBlur", {setting("kernel", l.kernel), resolution}});
+  for (const char* pass : {"ShadowBlur", "LayeredTransmittance"})
+    method.rows.push_back({pass, {setting("kernel", l.kernel), resolution}});
   if (l.published)
     for (const char* pass : {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"})
       std::ranges::find(method.rows, pass, &Row::pass)->settings.push_back("variant=published");

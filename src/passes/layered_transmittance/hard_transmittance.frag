@@ -1,0 +1,47 @@
+// What panes let through at each pixel of the light of up to four slots, hard, and how wide their penumbrae are.
+//   TILE_LIGHTS  see render/tile_lights.glsl
+// variant: TILE_LIGHTS=1
+#define SHADOW_TRANSMISSION
+#include "render/layer_lookup.glsl"
+#include "render/layered_transmittance.glsl"
+#include "render/pane_slots.glsl"
+#include "render/tangent_plane.glsl"
+
+uniform int scale;      // px of the picture for each
+uniform int firstSlot;  // of the four
+
+layout(location = 0) out uvec4 colors;
+layout(location = 1) out vec4 widths;  // m
+
+// In the middle of the pixels that the texel stands for, on the plane of their first.
+vec3 middleOf(ivec2 pixel, SurfacePixel s) {
+  vec3 positionV = (view.viewFromWorld * vec4(s.positionW, 1.0)).xyz;
+  vec4 plane = tangentPlaneAt(positionV, mat3(view.viewFromWorld) * s.planeNormalW, 0.0).planeC;
+  vec2 ndc = ndcOfPixel(vec2(pixel) + 0.5 * float(scale));
+  float own = texelFetch(depth, pixel, 0).r, there = -(dot(plane.xy, ndc) + plane.w) / plane.z;
+  bool near = abs(there - own) < 0.1 * own;  // or the plane is seen edge on
+  return scale > 1 && near ? worldOfView(positionVOf(ndc, there)) : s.positionW;
+}
+
+void main() {
+  uvec2 pixel = uint(scale) * uvec2(gl_FragCoord.xy);
+  colors = uvec4(0u);
+  widths = vec4(0.0);
+  uint light = isEmpty(ivec2(pixel)) ? lightCount.x : firstLightAt(pixel);
+  // Software rasterisers leave loops early, but run both ways of an if.
+  for (bool once = light < lightCount.x; once; once = false) {
+    SurfacePixel s = surfaceAt(ivec2(pixel));
+    vec3 positionW = middleOf(ivec2(pixel), s);
+    for (; light < lightCount.x; light = lightAfterAt(pixel, light)) {
+      int slot = paneSlots[light] - firstSlot;
+      bool here = slot >= 0 && slot < 4 && mayLight(lights[light], s.positionW, s.normalW);
+      for (; here; here = false) {
+        float width;
+        vec3 color = hardTransmittance(light, positionW, s.planeNormalW, towardsLight(light, positionW), width);
+        bvec4 own = equal(ivec4(slot), ivec4(0, 1, 2, 3));
+        colors = mix(colors, uvec4(packedColor(color)), own);
+        widths = mix(widths, vec4(width), own);
+      }
+    }
+  }
+}

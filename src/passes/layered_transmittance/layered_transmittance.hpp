@@ -1,0 +1,39 @@
+// LayeredTransmittance: how translucent surfaces colour light, with soft edges, in screen space.
+#pragma once
+
+#include <map>
+
+#include "render/layer_lookup.hpp"
+#include "render/layered_shadows.hpp"
+
+namespace lucerna::passes {
+
+class LayeredTransmittance {
+ public:
+  struct Params : render::LayerLookupParams {
+    int search = 5;              // depths along each side, odd
+    int kernel = 11;             // taps along each axis, odd
+    float maximumRadius = 48.f;  // px of the picture
+    float edgeStop = 0.05f;      // m
+    render::LayerResolution resolution = render::LayerResolution::Half;
+  };
+  struct Ports : render::LayerLookupPorts {
+    graph::Out<render::LayeredTransmittance> layeredTransmittance;
+  };
+
+  static void describe(graph::PassInfo<Params, Ports>& d);
+  explicit LayeredTransmittance(gpu::Device& device) : device_(device) {}
+  void execute(graph::PassContext& context, const Params& params, const Ports& ports);
+
+ private:
+  const gpu::Program& programOf(const gpu::ProgramDesc& desc);
+  void makeTextures(const Ports& ports);
+  void findHard(const Params& params, const Ports& ports, int firstSlot);
+  void blur(const Params& params, const Ports& ports, bool alongX, const gpu::ColorTarget& to);
+
+  gpu::Device& device_;
+  std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;
+  gpu::Texture hard_, widths_, alongX_;  // of four slots
+};
+
+}  // namespace lucerna::passes
