@@ -22,7 +22,11 @@ SceneChoice chosenByUser(const std::string& path) {
 std::vector<SceneChoice> scenesOf(const Suite& suite, const BenchOptions& options,
                                   Results& results) {
   std::vector<SceneChoice> scenes;
-  for (const std::string& path : options.scenes) scenes.push_back(chosenByUser(path));
+  for (const std::string& path : options.scenes) {
+    SceneChoice& scene = scenes.emplace_back(chosenByUser(path));
+    const auto own = std::ranges::find(suite.scenes, path, &SceneChoice::path);
+    if (own != suite.scenes.end()) scene.translucent = own->translucent;
+  }
   if (!scenes.empty()) return scenes;
   for (SceneChoice scene : suite.scenes) {
     if (options.quick && !scene.quick) continue;

@@ -80,22 +80,24 @@ uniform int paneScale;                         // px of the picture for each of 
 
 TexelsAround paneTexels;  // of the pixel
 
-// What panes let through of the light, from texels that know it; where some do not, from the maps.
+// What panes let through of the light, from the texels around; if one of them does not know it, what the maps say.
 vec3 layeredColor(uint light, vec3 positionW, vec3 toLightW) {
   int slot = paneSlots[light];
-  vec3 color = vec3(0.0);
-  float known = slot == kNoPanes ? 1.0 : 0.0, all = dot(paneTexels.weights, vec4(1.0));
-  if (slot == kNoPanes) color = vec3(1.0);
+  vec3 color = vec3(slot == kNoPanes ? 1.0 : 0.0);
+  float sum = color.r;
+  bool known = true;
   // Software rasterisers leave loops early, but run both ways of an if.
   for (int i = slot < 0 ? 4 : 0; i < 4; ++i) {
     ivec2 texel = clamp(paneTexels.first + kOffsets[i], ivec2(0), textureSize(layeredTransmittance, 0).xy - 1);
     uint bits = texelFetch(layeredTransmittance, ivec3(texel, slot / 4), 0)[slot % 4];
-    float share = isKnown(bits) && all > 0.0 ? paneTexels.weights[i] / all : 0.0;
-    color += share * unpackedColor(bits);
-    known += share;
+    float weight = paneTexels.weights[i];
+    color += weight * unpackedColor(bits);
+    sum += weight;
+    known = known && (weight == 0.0 || isKnown(bits));
   }
-  for (bool once = known < 0.999; once; once = false)
-    color += (1.0 - known) * shadowTransmittance(light, positionW, planeNormalW, toLightW);
+  color /= max(sum, 1e-6);
+  for (bool once = !known || sum == 0.0; once; once = false)
+    color = shadowTransmittance(light, positionW, planeNormalW, toLightW);
   return color;
 }
 #endif
