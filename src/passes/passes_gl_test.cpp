@@ -63,7 +63,8 @@ graph::Pipeline pipelineOf(const Stage& stage) {
          {std::pair{"ShadowBlur", "layered"}, std::pair{"PrefilteredShadows", "prefiltered"}})
       if (row.type == "TiledLighting" && std::ranges::find(stage.rows, maker) != stage.rows.end())
         row.params["shadows"] = std::string(shadows);
-    if (row.type == "Penumbra") row.params["method"] = std::string("minimum");
+    if (row.type == "Penumbra" || row.type == "LayeredTransmittance")
+      row.params["method"] = std::string("minimum");
   }
   return pipeline;
 }

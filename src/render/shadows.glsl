@@ -289,16 +289,6 @@ vec3 shadowTransmittance(uint light, vec3 positionW, vec3 normalW, vec3 toLightW
   return storedTransmittance(at.map, at.uvDepth);
 #endif
 }
-
-// What they let through at a point, unfiltered. width: of their penumbra, m.
-vec3 hardTransmittance(uint light, vec3 positionW, vec3 normalW, vec3 toLightW, out float width) {
-  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
-  width = 0.0;
-  if (!at.found || at.map.place.z == 0u) return vec3(1.0);
-  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
-  width = panePenumbra(at.map, at.uvDepth, slope, at.map.texel.z / texelSize(at.map, at.w), lightSize(lights[light]));
-  return storedTransmittance(at.map, at.uvDepth);
-}
 #endif
 
 // The width of the penumbra of what blocks the light, or part of it, m; 0: nothing does.

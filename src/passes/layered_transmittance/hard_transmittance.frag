@@ -1,9 +1,15 @@
 // What panes let through at each pixel of the light of up to four slots, hard, and how wide their penumbrae are.
-//   TILE_LIGHTS  see render/tile_lights.glsl
+//   NEAREST_BLOCKERS  widths by the nearest pane, the samplers of render/nearest_blockers.glsl being those of panes;
+//                     without, by a search
+//   TILE_LIGHTS       see render/tile_lights.glsl
 // variant: TILE_LIGHTS=1
+// variant: TILE_LIGHTS=1 NEAREST_BLOCKERS=1
 #define SHADOW_TRANSMISSION
 #include "render/layer_lookup.glsl"
 #include "render/layered_transmittance.glsl"
+#ifdef NEAREST_BLOCKERS
+#include "render/nearest_blockers.glsl"
+#endif
 #include "render/pane_slots.glsl"
 #include "render/tangent_plane.glsl"
 
@@ -23,6 +29,20 @@ vec3 middleOf(ivec2 pixel, SurfacePixel s) {
   return scale > 1 && near ? worldOfView(positionVOf(ndc, there)) : s.positionW;
 }
 
+// What panes let through of the light, unfiltered; width: of their penumbra, m.
+vec3 hardTransmittance(uint light, vec3 positionW, vec3 normalW, out float width) {
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, towardsLight(light, positionW));
+  width = 0.0;
+  if (!at.found || at.map.place.z == 0u) return vec3(1.0);
+#ifdef NEAREST_BLOCKERS
+  width = penumbraOfNearest(light, at);
+#else
+  vec2 slope = depthSlope(at.map, at.uvDepth, at.positionW, normalW, texelSize(at.map, at.w).x);
+  width = panePenumbra(at.map, at.uvDepth, slope, at.map.texel.z / texelSize(at.map, at.w), lightSize(lights[light]));
+#endif
+  return storedTransmittance(at.map, at.uvDepth);
+}
+
 void main() {
   uvec2 pixel = uint(scale) * uvec2(gl_FragCoord.xy);
   colors = uvec4(0u);
@@ -37,7 +57,7 @@ void main() {
       bool here = slot >= 0 && slot < 4 && mayLight(lights[light], s.positionW, s.normalW);
       for (; here; here = false) {
         float width;
-        vec3 color = hardTransmittance(light, positionW, s.planeNormalW, towardsLight(light, positionW), width);
+        vec3 color = hardTransmittance(light, positionW, s.planeNormalW, width);
         bvec4 own = equal(ivec4(slot), ivec4(0, 1, 2, 3));
         colors = mix(colors, uvec4(packedColor(color)), own);
         widths = mix(widths, vec4(width), own);

@@ -45,9 +45,15 @@ void LayeredTransmittance::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("LayeredTransmittance",
          "Finds how translucent surfaces colour each layer's light, and blurs it by the width of "
          "their penumbrae.");
+  d.param("method", &Params::method)
+      .choices({"search", "minimum"})
+      .rebuilds(graph::Rebuild::Ports)
+      .help(
+          "How wide penumbrae are. search: by the mean distance of panes around a point; minimum: "
+          "by that of the nearest to the light, from NearestBlockers.");
   d.param("search", &Params::search)
       .range(3, 47)
-      .help("Depths along each side of a light's map that are searched for panes, odd.");
+      .help("search: depths along each side of a light's map that are read, odd.");
   d.param("kernel", &Params::kernel)
       .range(3, 47)
       .help("Taps along each of two axes, odd; they spread over the widest penumbra of a pixel.");
@@ -67,6 +73,10 @@ void LayeredTransmittance::describe(graph::PassInfo<Params, Ports>& d) {
       .help("Of the picture: half looks up one point in the middle of four pixels.");
   // Both axes reach along x, as the second is askew.
   describeLayerLookup(d, 2 * static_cast<int>(std::ceil(d.values().maximumRadius)) + 4);
+  if (d.values().method == Method::Minimum)
+    d.read("nearestBlockers", &Ports::nearestBlockers)
+        .optional()
+        .help("Small copies of the maps; without it nothing is done.");
   d.write("layeredTransmittance", &Ports::layeredTransmittance)
       .help("Colours of layers whose light meets translucent surfaces; of none without them.");
 }
@@ -93,6 +103,8 @@ void LayeredTransmittance::makeTextures(const Ports& ports) {
 void LayeredTransmittance::findHard(const Params& params, const Ports& ports, int firstSlot) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = "passes/layered_transmittance/hard_transmittance.frag"};
+  const bool byNearest = params.method == Method::Minimum;
+  if (byNearest) desc.defines["NEAREST_BLOCKERS"] = "1";
   if (ports.tiled()) desc.defines["TILE_LIGHTS"] = "1";
   const gpu::Program& program = programOf(desc);
   gpu::Rendering rendering =
@@ -101,7 +113,13 @@ void LayeredTransmittance::findHard(const Params& params, const Ports& ports, in
   rendering.use(program, {.cull = gpu::Cull::None});
   bindLayerLookup(rendering, program, params, ports);
   rendering.buffer("PaneSlotBlock", ports.layeredTransmittance->slotBlock);
-  program.set("shadowSearchRadius", params.search / 2);
+  if (byNearest) {
+    rendering.texture("directionalNearestBlockers", ports.nearestBlockers->directionalPanes,
+                      gpu::kNearest);
+    rendering.texture("localNearestBlockers", ports.nearestBlockers->localPanes, gpu::kNearest);
+  } else {
+    program.set("shadowSearchRadius", params.search / 2);
+  }
   program.set("scale", ports.layeredTransmittance->scale);
   program.set("firstSlot", firstSlot);
   rendering.fullscreen();
@@ -130,7 +148,8 @@ void LayeredTransmittance::blur(const Params& params, const Ports& ports, bool a
 void LayeredTransmittance::execute(graph::PassContext&, const Params& params, const Ports& ports) {
   render::LayeredTransmittance& out = *ports.layeredTransmittance;
   Slots slots;
-  if (ports.layers() > 0 && ports.shadowMaps->seesPanes()) slots = slotsOf(ports);
+  const bool hasWidths = params.method == Method::Search || ports.nearestBlockers;
+  if (hasWidths && ports.layers() > 0 && ports.shadowMaps->seesPanes()) slots = slotsOf(ports);
   out.slots = slots.count;
   out.scale = scaleOf(params.resolution);
   makeTextures(ports);

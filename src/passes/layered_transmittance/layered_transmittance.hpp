@@ -5,12 +5,15 @@
 
 #include "render/layer_lookup.hpp"
 #include "render/layered_shadows.hpp"
+#include "render/nearest_blockers.hpp"
 
 namespace lucerna::passes {
 
 class LayeredTransmittance {
  public:
+  enum class Method { Search, Minimum };
   struct Params : render::LayerLookupParams {
+    Method method = Method::Search;
     int search = 5;              // depths along each side, odd
     int kernel = 11;             // taps along each axis, odd
     float maximumRadius = 48.f;  // px of the picture
@@ -18,6 +21,7 @@ class LayeredTransmittance {
     render::LayerResolution resolution = render::LayerResolution::Half;
   };
   struct Ports : render::LayerLookupPorts {
+    graph::In<render::NearestBlockers> nearestBlockers;
     graph::Out<render::LayeredTransmittance> layeredTransmittance;
   };
 

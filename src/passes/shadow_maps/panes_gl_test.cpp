@@ -82,8 +82,8 @@ class Panes : public ::testing::TestWithParam<Case> {
 INSTANTIATE_TEST_SUITE_P(Of, Panes, ::testing::ValuesIn(cases()),
                          [](const auto& parameter) { return parameter.param.name; });
 
-// Half a percent: half floats, and a step of halvings for each pane. In layers one percent: steps of
-// a dark colour's square root.
+// Half a percent: half floats, and a step of halvings for each pane. In layers one percent: steps
+// of a dark colour's square root.
 void expectShare(vec3 found, vec3 wanted, const char* what) {
   const float share = Panes::GetParam().shadows == "layered" ? 0.01f : 0.005f;
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(found[c], wanted[c], share * wanted[c]) << what << c;
