@@ -10,6 +10,8 @@
 
 uniform usampler2DArray colors;
 uniform sampler2DArray widths;  // of penumbrae, m
+uniform int colorLayer;         // of these arrays
+uniform int widthLayer;
 uniform int taps;               // on either side of the pixel
 uniform float maximumRadius;    // px of the picture
 uniform float edgeStop;         // m
@@ -33,8 +35,8 @@ const bool kAlongX = false;
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = kScale * texel;
   ivec2 last = textureSize(colors, 0).xy - 1;
-  vec4 ownWidths = texelFetch(widths, ivec3(texel, 0), 0);
-  uvec4 own = texelFetch(colors, ivec3(texel, 0), 0);
+  vec4 ownWidths = texelFetch(widths, ivec3(texel, widthLayer), 0);
+  uvec4 own = texelFetch(colors, ivec3(texel, colorLayer), 0);
   float widest = max(max(ownWidths.x, ownWidths.y), max(ownWidths.z, ownWidths.w));
   blurred = own;
   // Software rasterisers leave loops early, but run both ways of an if.
@@ -58,7 +60,7 @@ void main() {
       ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);
       float metres = float(i) * apart / length1, away = metres * metres;
       float onSurface = i == 0 || onPlane(tangent, kScale * tap, texelFetch(depth, kScale * tap, 0).r) ? 1.0 : 0.0;
-      uvec4 bits = texelFetch(colors, ivec3(tap, 0), 0);
+      uvec4 bits = texelFetch(colors, ivec3(tap, colorLayer), 0);
       // Where a pixel has not a slot's light there is none to blur.
       vec4 weight = onSurface * vec4(bits >> 30) * vec4(lessThanEqual(vec4(away), ends)) * exp2(exponents * away);
       vec4 r = vec4(bits & kColorMask), g = vec4(bits >> 10 & kColorMask), b = vec4(bits >> 20 & kColorMask);

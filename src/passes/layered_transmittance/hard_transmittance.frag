@@ -1,9 +1,13 @@
-// What panes let through at each pixel of the light of up to four slots, hard, and how wide their penumbrae are.
+// What panes let through at each pixel of the light of some slots, hard, and how wide their penumbrae are.
+//   ARRAY_LAYERS      four slots in each, at most four
 //   NEAREST_BLOCKERS  widths by the nearest pane, the samplers of render/nearest_blockers.glsl being those of panes;
 //                     without, by a search
 //   TILE_LIGHTS       see render/tile_lights.glsl
 // variant: TILE_LIGHTS=1
-// variant: TILE_LIGHTS=1 NEAREST_BLOCKERS=1
+// variant: ARRAY_LAYERS=4 TILE_LIGHTS=1 NEAREST_BLOCKERS=1
+#ifndef ARRAY_LAYERS
+#define ARRAY_LAYERS 1
+#endif
 #define SHADOW_TRANSMISSION
 #include "render/layer_lookup.glsl"
 #include "render/layered_transmittance.glsl"
@@ -14,10 +18,10 @@
 #include "render/tangent_plane.glsl"
 
 uniform int scale;      // px of the picture for each
-uniform int firstSlot;  // of the four
+uniform int firstSlot;  // of those that are asked for
 
-layout(location = 0) out uvec4 colors;
-layout(location = 1) out vec4 widths;  // m
+layout(location = 0) out uvec4 colors[ARRAY_LAYERS];
+layout(location = ARRAY_LAYERS) out vec4 widths[ARRAY_LAYERS];  // m
 
 // In the middle of the pixels that the texel stands for, on the plane of their first.
 vec3 middleOf(ivec2 pixel, SurfacePixel s) {
@@ -45,8 +49,10 @@ vec3 hardTransmittance(uint light, vec3 positionW, vec3 normalW, out float width
 
 void main() {
   uvec2 pixel = uint(scale) * uvec2(gl_FragCoord.xy);
-  colors = uvec4(0u);
-  widths = vec4(0.0);
+  for (int a = 0; a < ARRAY_LAYERS; ++a) {
+    colors[a] = uvec4(0u);
+    widths[a] = vec4(0.0);
+  }
   uint light = isEmpty(ivec2(pixel)) ? lightCount.x : firstLightAt(pixel);
   // Software rasterisers leave loops early, but run both ways of an if.
   for (bool once = light < lightCount.x; once; once = false) {
@@ -54,13 +60,16 @@ void main() {
     vec3 positionW = middleOf(ivec2(pixel), s);
     for (; light < lightCount.x; light = lightAfterAt(pixel, light)) {
       int slot = paneSlots[light] - firstSlot;
-      bool here = slot >= 0 && slot < 4 && mayLight(lights[light], s.positionW, s.normalW);
+      bool here = slot >= 0 && slot < 4 * ARRAY_LAYERS && mayLight(lights[light], s.positionW, s.normalW);
       for (; here; here = false) {
         float width;
         vec3 color = hardTransmittance(light, positionW, s.planeNormalW, width);
-        bvec4 own = equal(ivec4(slot), ivec4(0, 1, 2, 3));
-        colors = mix(colors, uvec4(packedColor(color)), own);
-        widths = mix(widths, vec4(width), own);
+        uint bits = packedColor(color);
+        for (int a = 0; a < ARRAY_LAYERS; ++a) {
+          bvec4 own = equal(ivec4(slot), 4 * a + ivec4(0, 1, 2, 3));
+          colors[a] = mix(colors[a], uvec4(bits), own);
+          widths[a] = mix(widths[a], vec4(width), own);
+        }
       }
     }
   }

@@ -10,6 +10,7 @@ using gpu::Format;
 namespace {
 
 constexpr int kSlotsOfTexel = 4;
+constexpr int kArraysAtOnce = 4;  // two targets for each
 // As in render/pane_slots.glsl.
 constexpr int kNoPanes = -1, kPanesInMaps = -2;
 
@@ -93,23 +94,27 @@ void LayeredTransmittance::makeTextures(const Ports& ports) {
     render::fitLayers(device_, texture, format, *ports.depth, out.scale, slots,
                       "layered transmittance");
   };
-  const int atOnce = std::min(out.slots, kSlotsOfTexel);
   fit(out.colors, Format::Rgba32Uint, out.slots);
+  const int atOnce = std::min(out.slots, kSlotsOfTexel * kArraysAtOnce);
   fit(hard_, Format::Rgba32Uint, atOnce);
   fit(widths_, Format::Rgba16Float, atOnce);
-  fit(alongX_, Format::Rgba32Uint, atOnce);
+  fit(alongX_, Format::Rgba32Uint, std::min(out.slots, kSlotsOfTexel));
 }
 
-void LayeredTransmittance::findHard(const Params& params, const Ports& ports, int firstSlot) {
+void LayeredTransmittance::findHard(const Params& params, const Ports& ports, int first,
+                                    int count) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
-                        .fragment = "passes/layered_transmittance/hard_transmittance.frag"};
+                        .fragment = "passes/layered_transmittance/hard_transmittance.frag",
+                        .defines = {{"ARRAY_LAYERS", std::to_string(count)}}};
   const bool byNearest = params.method == Method::Minimum;
   if (byNearest) desc.defines["NEAREST_BLOCKERS"] = "1";
   if (ports.tiled()) desc.defines["TILE_LIGHTS"] = "1";
   const gpu::Program& program = programOf(desc);
-  gpu::Rendering rendering =
-      device_.render({.colors = {{&hard_, gpu::Load::Discard, vec4(0.f), 0},
-                                 {&widths_, gpu::Load::Discard, vec4(0.f), 0}}});
+  gpu::Targets targets;
+  for (const gpu::Texture* texture : {&hard_, &widths_})
+    for (int layer = 0; layer < count; ++layer)
+      targets.colors.push_back({texture, gpu::Load::Discard, vec4(0.f), layer});
+  gpu::Rendering rendering = device_.render(targets);
   rendering.use(program, {.cull = gpu::Cull::None});
   bindLayerLookup(rendering, program, params, ports);
   rendering.buffer("PaneSlotBlock", ports.layeredTransmittance->slotBlock);
@@ -121,12 +126,12 @@ void LayeredTransmittance::findHard(const Params& params, const Ports& ports, in
     program.set("shadowSearchRadius", params.search / 2);
   }
   program.set("scale", ports.layeredTransmittance->scale);
-  program.set("firstSlot", firstSlot);
+  program.set("firstSlot", kSlotsOfTexel * first);
   rendering.fullscreen();
 }
 
-void LayeredTransmittance::blur(const Params& params, const Ports& ports, bool alongX,
-                                const gpu::ColorTarget& to) {
+void LayeredTransmittance::blurAxis(const Params& params, const Ports& ports, int layer,
+                                    bool alongX, const gpu::ColorTarget& to) {
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = "passes/layered_transmittance/blur_transmittance.frag"};
   if (alongX) desc.defines["ALONG_X"] = "1";
@@ -139,10 +144,18 @@ void LayeredTransmittance::blur(const Params& params, const Ports& ports, bool a
   rendering.texture("widths", widths_, gpu::kNearest);
   rendering.texture("depth", *ports.depth, gpu::kNearest);
   rendering.texture("normal", *ports.normal, gpu::kNearest);
+  program.set("colorLayer", alongX ? layer : 0);
+  program.set("widthLayer", layer);
   program.set("taps", params.kernel / 2);
   program.set("maximumRadius", params.maximumRadius);
   program.set("edgeStop", params.edgeStop);
   rendering.fullscreen();
+}
+
+void LayeredTransmittance::blur(const Params& params, const Ports& ports, int layer,
+                                const gpu::ColorTarget& to) {
+  blurAxis(params, ports, layer, true, {&alongX_, gpu::Load::Discard, vec4(0.f), 0});
+  blurAxis(params, ports, layer, false, to);
 }
 
 void LayeredTransmittance::execute(graph::PassContext&, const Params& params, const Ports& ports) {
@@ -155,10 +168,12 @@ void LayeredTransmittance::execute(graph::PassContext&, const Params& params, co
   makeTextures(ports);
   if (out.slots == 0) return;
   device_.write(out.slotBlock, std::as_bytes(std::span(slots.ofLight)), "PaneSlotBlock");
-  for (int array = 0; array < render::arrayLayersOf(out.slots); ++array) {
-    findHard(params, ports, kSlotsOfTexel * array);
-    blur(params, ports, true, {&alongX_, gpu::Load::Discard, vec4(0.f), 0});
-    blur(params, ports, false, {&out.colors, gpu::Load::Discard, vec4(0.f), array});
+  const int arrays = render::arrayLayersOf(out.slots);
+  for (int first = 0; first < arrays; first += kArraysAtOnce) {
+    const int count = std::min(arrays - first, kArraysAtOnce);
+    findHard(params, ports, first, count);
+    for (int layer = 0; layer < count; ++layer)
+      blur(params, ports, layer, {&out.colors, gpu::Load::Discard, vec4(0.f), first + layer});
   }
 }
 

@@ -32,12 +32,16 @@ class LayeredTransmittance {
  private:
   const gpu::Program& programOf(const gpu::ProgramDesc& desc);
   void makeTextures(const Ports& ports);
-  void findHard(const Params& params, const Ports& ports, int firstSlot);
-  void blur(const Params& params, const Ports& ports, bool alongX, const gpu::ColorTarget& to);
+  // Of `count` array layers of the output from the first on, into hard_ and widths_.
+  void findHard(const Params& params, const Ports& ports, int first, int count);
+  // Of a layer of hard_ into alongX_, and from there to `to`.
+  void blur(const Params& params, const Ports& ports, int layer, const gpu::ColorTarget& to);
+  void blurAxis(const Params& params, const Ports& ports, int layer, bool alongX,
+                const gpu::ColorTarget& to);
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;
-  gpu::Texture hard_, widths_, alongX_;  // of four slots
+  gpu::Texture hard_, widths_, alongX_;
 };
 
 }  // namespace lucerna::passes

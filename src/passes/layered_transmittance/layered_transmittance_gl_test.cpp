@@ -42,18 +42,27 @@ scene::Scene wallScene() {
 }
 
 const std::vector<std::string> kRows{
-    "Cull",       "GBuffer",  "ShadowMaps", "TileLights",           "ShadowLayers",
-    "ShadowMask", "Penumbra", "ShadowBlur", "LayeredTransmittance", "TiledLighting"};
+    "Cull",         "GBuffer",         "ShadowMaps", "TileLights", "ShadowLayers",
+    "ShadowMask",   "NearestBlockers", "Penumbra",   "ShadowBlur", "LayeredTransmittance",
+    "TiledLighting"};
 
 graph::PassRow& rowOf(graph::Pipeline& pipeline, const std::string& type) {
   return *std::ranges::find(pipeline.passes, type, &graph::PassRow::type);
 }
 
-graph::Pipeline layeredRows(bool withPass = true) {
-  graph::Pipeline pipeline = testing::rows(kRows);
+struct Case {
+  std::string method = "search", resolution = "half";
+};
+
+graph::Pipeline layeredRows(const Case& of = {}, bool withPass = true) {
+  std::vector<std::string> types = kRows;
+  if (of.method == "search") std::erase(types, "NearestBlockers");
+  graph::Pipeline pipeline = testing::rows(types);
   rowOf(pipeline, "ShadowMaps").params["localSize"] = std::int64_t{2048};
   rowOf(pipeline, "ShadowLayers").params["layers"] = std::int64_t{32};
-  rowOf(pipeline, "LayeredTransmittance").params = {{"search", std::int64_t{11}},
+  rowOf(pipeline, "LayeredTransmittance").params = {{"method", of.method},
+                                                    {"resolution", of.resolution},
+                                                    {"search", std::int64_t{11}},
                                                     {"kernel", std::int64_t{23}}};
   rowOf(pipeline, "LayeredTransmittance").enabled = withPass;
   rowOf(pipeline, "TiledLighting").params["shadows"] = std::string("layered");
@@ -70,12 +79,16 @@ double visibleShareOfDisc(double t) {
   return 0.5 + (t * std::sqrt(1. - t * t) + std::asin(t)) / static_cast<double>(kPi);
 }
 
-class PanesInLayers : public ::testing::TestWithParam<std::string> {
+class PanesInLayers : public ::testing::TestWithParam<Case> {
  protected:
   void TearDown() override { testing::expectNoDebugMessages(); }
 };
-INSTANTIATE_TEST_SUITE_P(At, PanesInLayers, ::testing::Values("half", "full"),
-                         [](const auto& parameter) { return parameter.param; });
+INSTANTIATE_TEST_SUITE_P(By, PanesInLayers,
+                         ::testing::Values(Case{"search", "half"}, Case{"search", "full"},
+                                           Case{"minimum", "half"}, Case{"minimum", "full"}),
+                         [](const auto& parameter) {
+                           return parameter.param.method + "_" + parameter.param.resolution;
+                         });
 
 // A spot lamp, a disc, beside the camera and a pane that covers half of all, half way to the wall.
 TEST_P(PanesInLayers, HavePenumbraeOfTheRightWidth) {
@@ -86,8 +99,7 @@ TEST_P(PanesInLayers, HavePenumbraeOfTheRightWidth) {
     scene::Scene scene = wallScene();
     addLamp(scene, scene::LightKind::Spot, {kLampX, 0.5f, 0}, {kLampX, 0.5f, -kWall}, radius);
     updateTransforms(scene);
-    graph::Pipeline pipeline = layeredRows();
-    rowOf(pipeline, "LayeredTransmittance").params["resolution"] = GetParam();
+    const graph::Pipeline pipeline = layeredRows(GetParam());
     const Image lit = pictureOf(scene, pipeline, kPicture);
     addPane(scene, kRedGlass, {kEdgeX - 20.f, 0, -0.5f * kWall}, vec2(40));
     updateTransforms(scene);
@@ -130,8 +142,7 @@ TEST_P(PanesInLayers, OfLampsTogetherAreThoseOfEachAlone) {
     addLamp(scene, kind, {1.5f * std::cos(turn), std::sin(turn), -1.f}, {0, 0, -kWall}, 0.1f);
   }
   updateTransforms(scene);
-  graph::Pipeline pipeline = layeredRows();
-  rowOf(pipeline, "LayeredTransmittance").params["resolution"] = GetParam();
+  graph::Pipeline pipeline = layeredRows(GetParam());
   // Larger ones do not all fit, and those of a lamp alone would differ.
   rowOf(pipeline, "ShadowMaps").params["localSize"] = std::int64_t{512};
   const Image together = pictureOf(scene, pipeline, kPicture);
@@ -150,6 +161,32 @@ TEST_P(PanesInLayers, OfLampsTogetherAreThoseOfEachAlone) {
   EXPECT_LT(worst, 2. / 255. * brightest);
 }
 
+// A card that the lamp sees before the pane, in front of a wall that is tinted all over: colours of
+// the one do not run into the other, however wide penumbrae are.
+TEST_P(PanesInLayers, DoNotRunAcrossEdges) {
+  constexpr uvec2 kPicture{160, 120};
+  scene::Scene scene = wallScene();
+  testing::addBox(scene, {0.1f, 0, -1}, {0.3f, 0.4f, 1e-3f});
+  addLamp(scene, scene::LightKind::Spot, {-3, 0, 0}, {0, 0, -kWall}, 0.4f);
+  updateTransforms(scene);
+  const graph::Pipeline pipeline = layeredRows(GetParam());
+  const Image bare = pictureOf(scene, pipeline, kPicture);
+  addPane(scene, kRedGlass, {0, 0, -3}, vec2(40));
+  updateTransforms(scene);
+  const Image found = pictureOf(scene, pipeline, kPicture);
+  const float through = scene::transmittance(kOpacity, kRedGlass).y;
+  int tinted = 0, clear = 0, neither = 0;
+  for (std::size_t i = 1; i < found.as<float>().size(); i += 3) {
+    if (bare.as<float>()[i] < 0.01f) continue;
+    const float share = found.as<float>()[i] / bare.as<float>()[i];
+    const bool likePane = std::abs(share - through) < 0.02f, likeNone = std::abs(share - 1) < 0.02f;
+    tinted += likePane, clear += likeNone, neither += !likePane && !likeNone;
+  }
+  EXPECT_GT(tinted, 1000);
+  EXPECT_GT(clear, 1000);
+  EXPECT_EQ(neither, 0);
+}
+
 // A lamp as good as a point has no penumbrae: pixels are as sharp as the maps are.
 TEST_P(PanesInLayers, OfPointsAreAsSharpAsTheMaps) {
   constexpr uvec2 kPicture{128, 96};
@@ -157,15 +194,14 @@ TEST_P(PanesInLayers, OfPointsAreAsSharpAsTheMaps) {
   addPane(scene, kBlueGlass, {0, 0, -3}, vec2(0.7f));
   addLamp(scene, scene::LightKind::Spot, {0.5f, 0.4f, 0}, {0, 0, -kWall}, 1e-4f);
   updateTransforms(scene);
-  graph::Pipeline pipeline = layeredRows();
-  rowOf(pipeline, "LayeredTransmittance").params["resolution"] = GetParam();
+  const graph::Pipeline pipeline = layeredRows(GetParam());
   const Image found = pictureOf(scene, pipeline, kPicture);
-  const Image sharp = pictureOf(scene, layeredRows(false), kPicture);
+  const Image sharp = pictureOf(scene, layeredRows({}, false), kPicture);
   int differ = 0;
   for (std::size_t i = 0; i < found.as<float>().size(); ++i)
     differ += std::abs(found.as<float>()[i] - sharp.as<float>()[i]) >
               0.01f * std::max(sharp.as<float>()[i], 0.01f);
-  EXPECT_LT(differ, GetParam() == "half" ? 1 : 20);
+  EXPECT_LT(differ, GetParam().resolution == "half" ? 1 : 20);
 }
 
 // Where nothing is translucent the pass is as if it were not there.
@@ -185,7 +221,7 @@ TEST(LayeredTransmittance, CostsNothingWithoutPanes) {
   const auto drawn = [&](bool withPass) {
     const gpu::ObjectCounts before = testing::device().objectCounts();
     testing::SceneRenderer renderer(scene);
-    const graph::Pipeline pipeline = layeredRows(withPass);
+    const graph::Pipeline pipeline = layeredRows({}, withPass);
     EXPECT_TRUE(renderer.render(pipeline, kPicture, {"TiledLighting.color"}));
     testing::device().resetCounters();
     auto output = renderer.render(pipeline, kPicture, {"TiledLighting.color"});
@@ -204,7 +240,11 @@ TEST(LayeredTransmittance, CostsNothingWithoutPanes) {
 // Many lamps, few of which see panes: the others take no memory, and lose no colour.
 TEST(LayeredTransmittance, TakesMemoryOfLayersWithPanesAlone) {
   constexpr uvec2 kPicture{96, 64};
-  const auto bytesOf = [&](int lamps, bool withPass) {
+  struct Frame {
+    std::uint64_t bytes = 0;
+    vec3 center{0.f};
+  };
+  const auto drawn = [&](int lamps, bool withPass) {
     scene::Scene scene = wallScene();
     addPane(scene, kRedGlass, {0, 1.5f, -0.5f}, vec2(0.5f));
     // One stands before the pane and all others behind it.
@@ -213,12 +253,16 @@ TEST(LayeredTransmittance, TakesMemoryOfLayersWithPanesAlone) {
     updateTransforms(scene);
     const std::uint64_t before = testing::device().objectCounts().textureBytes;
     testing::SceneRenderer renderer(scene);
-    EXPECT_TRUE(renderer.render(layeredRows(withPass), kPicture, {"TiledLighting.color"}));
-    return testing::device().objectCounts().textureBytes - before;
+    auto output = renderer.render(layeredRows({}, withPass), kPicture, {"TiledLighting.color"});
+    EXPECT_TRUE(output);
+    return Frame{testing::device().objectCounts().textureBytes - before,
+                 output ? testing::centerOf(output->kept.at("TiledLighting.color")) : vec3(0)};
   };
-  const std::uint64_t one = bytesOf(1, true) - bytesOf(1, false);
+  const Frame with = drawn(9, true), without = drawn(9, false);
+  const std::uint64_t one = drawn(1, true).bytes - drawn(1, false).bytes;
   EXPECT_GT(one, 0u);
-  EXPECT_EQ(bytesOf(9, true) - bytesOf(9, false), one);
+  EXPECT_EQ(with.bytes - without.bytes, one);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(with.center[c], without.center[c], 0.01f * with.center.x);
   testing::expectNoDebugMessages();
 }
 
