@@ -55,12 +55,16 @@ ShadowMethod layered(const Layered& l) {
   ShadowMethod method{.name = nameOf(l), .lighting = lighting("layered"), .taps = tapsOf(l)};
   method.rows = {{"ShadowLayers", {"layers=32"}}, {"ShadowMask"}, {"ShadowTiles"}};
   if (l.search == 0) method.rows.push_back({"NearestBlockers"});
-  method.rows.push_back({"Penumbra", l.search > 0
-                                         ? std::vector{std::string("method=search"),
-                                                       setting("search", l.search), resolution}
-                                         : std::vector{std::string("method=minimum"), resolution}});
-  for (const char* pass : {"ShadowBlur", "LayeredTransmittance"})
-    method.rows.push_back({pass, {setting("kernel", l.kernel), resolution}});
+  const std::vector<std::string> widths =
+      l.search > 0 ? std::vector<std::string>{"method=search", setting("search", l.search)}
+                   : std::vector<std::string>{"method=minimum"};
+  std::vector<std::string> panes = widths;
+  panes.push_back(setting("kernel", l.kernel));
+  method.rows.push_back({"Penumbra", widths});
+  method.rows.push_back({"ShadowBlur", {setting("kernel", l.kernel)}});
+  method.rows.push_back({"LayeredTransmittance", panes});
+  for (const char* pass : {"Penumbra", "ShadowBlur", "LayeredTransmittance"})
+    std::ranges::find(method.rows, pass, &Row::pass)->settings.push_back(resolution);
   if (l.published)
     for (const char* pass : {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"})
       std::ranges::find(method.rows, pass, &Row::pass)->settings.push_back("variant=published");

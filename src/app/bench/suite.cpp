@@ -23,9 +23,10 @@ std::vector<SceneChoice> scenesOf(const Suite& suite, const BenchOptions& option
                                   Results& results) {
   std::vector<SceneChoice> scenes;
   for (const std::string& path : options.scenes) {
-    SceneChoice& scene = scenes.emplace_back(chosenByUser(path));
+    // One of its own it measures as ever.
     const auto own = std::ranges::find(suite.scenes, path, &SceneChoice::path);
-    if (own != suite.scenes.end()) scene.translucent = own->translucent;
+    const bool known = own != suite.scenes.end() && !own->outside;
+    scenes.push_back(known ? *own : chosenByUser(path));
   }
   if (!scenes.empty()) return scenes;
   for (SceneChoice scene : suite.scenes) {
