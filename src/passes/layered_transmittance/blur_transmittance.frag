@@ -18,14 +18,6 @@ uniform float edgeStop;         // m
 
 layout(location = 0) out uvec4 blurred;
 
-#ifdef HALF_SIZE
-const int kScale = 2;
-// What mixes of four texels blur along each axis, texels: a deviation of which penumbrae have so much already.
-const float kInherent = 0.41;
-#else
-const int kScale = 1;
-const float kInherent = 0.0;
-#endif
 #ifdef ALONG_X
 const bool kAlongX = true;
 #else
@@ -44,7 +36,7 @@ void main() {
     SurfacePixel s = surfaceAt(pixel);
     vec3 positionV = (view.viewFromWorld * vec4(s.positionW, 1.0)).xyz;
     vec3 normalV = mat3(view.viewFromWorld) * s.planeNormalW;
-    vec3 axis = max(ellipseAxis(positionV, normalV, kScale, kAlongX), vec3(-1e6, -1e6, 1e-6));
+    vec3 axis = max(ellipseAxis(positionV, normalV, kAlongX), vec3(-1e6, -1e6, 1e-6));
     float length1 = max(length(axis.xy), 1e-6);  // texels of a metre
     TangentPlane tangent = tangentPlaneAt(positionV, normalV, max(edgeStop, 1.0 / axis.z));
 

@@ -71,7 +71,7 @@ void LayeredTransmittance::describe(graph::PassInfo<Params, Ports>& d) {
           "is another surface and does not count.");
   d.param("resolution", &Params::resolution)
       .choices({"half", "full"})
-      .help("Of the picture: half looks up one point in the middle of four pixels.");
+      .help("Of the picture: half stands for two pixels along each axis, with one width for all.");
   // Both axes reach along x, as the second is askew.
   describeLayerLookup(d, 2 * static_cast<int>(std::ceil(d.values().maximumRadius)) + 4);
   if (d.values().method == Method::Minimum)

@@ -27,15 +27,6 @@ uniform float edgeStop;       // m
 
 layout(location = 0) out uint visibility[ARRAY_LAYERS];  // four layers, a byte each: see render/layered_shadows.hpp
 
-#ifdef HALF_SIZE
-const int kScale = 2;
-// What averages of four pixels and mixes of four texels blur along each axis, texels: a deviation of which penumbrae have
-// so much already.
-const float kInherent = 0.5;
-#else
-const int kScale = 1;
-const float kInherent = 0.0;
-#endif
 const uint kAsMask = 255u;
 const int kLayers = 4 * ARRAY_LAYERS;
 const float kPublishedStop = 0.03;    // of stored depth
@@ -54,7 +45,7 @@ vec3 axisOf(vec3 positionV, vec3 normalV) {
   float shrunk = across * sqrt(max(normalV.z, kPublishedCosine));
   return alongX ? vec3(shrunk, 0.0, shrunk) : vec3(0.0, shrunk, shrunk);
 #else
-  return ellipseAxis(positionV, normalV, kScale, alongX);
+  return ellipseAxis(positionV, normalV, alongX);
 #endif
 }
 
