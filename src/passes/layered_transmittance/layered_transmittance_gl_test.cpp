@@ -161,6 +161,28 @@ TEST_P(PanesInLayers, OfLampsTogetherAreThoseOfEachAlone) {
   EXPECT_LT(worst, 2. / 255. * brightest);
 }
 
+// Edges of panes among each other, drawn first to last and last to first.
+TEST_P(PanesInLayers, AreTheSameInAnyOrder) {
+  constexpr uvec2 kPicture{96, 64};
+  struct Pane {
+    vec3 transmission, middle;
+  };
+  std::vector<Pane> panes{{kRedGlass, {-0.2f, 0, -3}},
+                          {kGreenGlass, {0.1f, 0.2f, -3.5f}},
+                          {kBlueGlass, {0.2f, -0.1f, -4}}};
+  std::vector<Image> pictures;
+  for (int turn = 0; turn < 2; ++turn) {
+    scene::Scene scene = wallScene();
+    for (const Pane& pane : panes) addPane(scene, pane.transmission, pane.middle, vec2(0.8f));
+    addLamp(scene, scene::LightKind::Spot, {0, 0.3f, 0}, {0, 0, -kWall}, 0.2f);
+    addLamp(scene, scene::LightKind::Directional, {1, 1, 1}, {0, 0, -kWall}, 0.f);
+    updateTransforms(scene);
+    pictures.push_back(pictureOf(scene, layeredRows(GetParam()), kPicture));
+    std::ranges::reverse(panes);
+  }
+  EXPECT_TRUE(std::ranges::equal(pictures[0].bytes(), pictures[1].bytes()));
+}
+
 // A card that the lamp sees before the pane, in front of a wall that is tinted all over: colours of
 // the one do not run into the other, however wide penumbrae are.
 TEST_P(PanesInLayers, DoNotRunAcrossEdges) {

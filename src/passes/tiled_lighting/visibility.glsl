@@ -1,7 +1,7 @@
 // What both shaders need for shadows: the surface, and the light that reaches it.
 //   PREFILTERED_SHADOWS  moments of the maps tell, not the maps; MOMENT_LEVELS: see render/prefiltered_shadows.glsl
 //   LAYERED_SHADOWS      screen-space shadows of lights that have a layer; as many array layers
-//   LAYERED_TRANSMITTANCE  colours of lights that have a slot for panes; with SHADOW_TRANSMISSION
+//   LAYERED_TRANSMITTANCE  colours of lights that have a slot for panes; beside SHADOW_TRANSMISSION
 //   ALL_IN_LAYERS        all that throw shadows have one: software rasterisers run both ways of an if
 #include "render/read_gbuffer.glsl"
 #include "render/plane_normal.glsl"
