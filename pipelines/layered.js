@@ -13,6 +13,7 @@ pass("ShadowTiles");
 pass("NearestBlockers");
 pass("Penumbra", {method: "minimum", resolution: "half"});
 pass("ShadowBlur", {kernel: 11, resolution: "half"});
+pass("LayeredTransmittance", {method: "minimum", kernel: 11, resolution: "half"});
 pass("TiledLighting", {shadows: "layered", comparison: "plane"});
 pass("Background");
 pass("Mirrors");

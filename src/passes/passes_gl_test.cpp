@@ -34,11 +34,11 @@ Stage stageOf(const std::string& type) {
     return {{"Cull", "GBuffer", "ShadowMaps", type, "TiledLighting", "ToneMap"}, "ToneMap.color"};
   if (type == "TileLights" || type == "ShadowLayers" || type == "ShadowMask" ||
       type == "ShadowTiles" || type == "NearestBlockers" || type == "Penumbra" ||
-      type == "ShadowBlur")
-    return {
-        {"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask", "ShadowTiles",
-         "NearestBlockers", "Penumbra", "ShadowBlur", "TiledLighting", "ToneMap"},
-        "ToneMap.color"};
+      type == "ShadowBlur" || type == "LayeredTransmittance")
+    return {{"Cull", "GBuffer", "ShadowMaps", "TileLights", "ShadowLayers", "ShadowMask",
+             "ShadowTiles", "NearestBlockers", "Penumbra", "ShadowBlur", "LayeredTransmittance",
+             "TiledLighting", "ToneMap"},
+            "ToneMap.color"};
   if (type == "SaveImage")
     return {{"Cull", "GBuffer", "TiledLighting", "ToneMap", "SaveImage"},
             "ToneMap.color",
@@ -63,7 +63,8 @@ graph::Pipeline pipelineOf(const Stage& stage) {
          {std::pair{"ShadowBlur", "layered"}, std::pair{"PrefilteredShadows", "prefiltered"}})
       if (row.type == "TiledLighting" && std::ranges::find(stage.rows, maker) != stage.rows.end())
         row.params["shadows"] = std::string(shadows);
-    if (row.type == "Penumbra") row.params["method"] = std::string("minimum");
+    if (row.type == "Penumbra" || row.type == "LayeredTransmittance")
+      row.params["method"] = std::string("minimum");
   }
   return pipeline;
 }

@@ -9,6 +9,7 @@
 #include "passes/fxaa/fxaa.hpp"
 #include "passes/gbuffer/gbuffer.hpp"
 #include "passes/geometry_samples/geometry_samples.hpp"
+#include "passes/layered_transmittance/layered_transmittance.hpp"
 #include "passes/mirrors/mirrors.hpp"
 #include "passes/nearest_blockers/nearest_blockers.hpp"
 #include "passes/penumbra/penumbra.hpp"
@@ -58,6 +59,7 @@ void registerPasses(graph::Registry& registry) {
   registry.add<NearestBlockers>();
   registry.add<Penumbra>();
   registry.add<ShadowBlur>();
+  registry.add<LayeredTransmittance>();
   registry.add<TiledLighting>();
   registry.add<CustomShaders>();
   registry.add<Forward>();

@@ -77,20 +77,22 @@ void describeLookupLights(graph::PassInfo<Params, Ports>& d) {
       .help("The layer of each light; without it there are none.");
 }
 
-// Params and Ports: derived from those above.
+// Params and Ports: derived from those above. around: px, how far from a pixel others are looked up
+// for it, too.
 template <typename Params, typename Ports>
-void describeLayerLookup(graph::PassInfo<Params, Ports>& d) {
+void describeLayerLookup(graph::PassInfo<Params, Ports>& d, int around = 0) {
   describeLookupBias(d);
   d.read("view", lookupPort<Ports>(&LayerLookupPorts::view))
       .help("The view that the G-buffer was drawn from.");
   describeLookupLights(d);
   d.read("depth", lookupPort<Ports>(&LayerLookupPorts::depth))
       .texture(gpu::Format::Depth32F)
-      .halo(1)
+      .halo(around + 1)
       .help("Reversed depth.");
   d.read("normal", lookupPort<Ports>(&LayerLookupPorts::normal))
       .texture(gpu::Format::Rg16Unorm)
       .sameSizeAs("depth")
+      .halo(around)
       .help("View-space normal, octahedral.");
 }
 

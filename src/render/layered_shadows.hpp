@@ -30,6 +30,15 @@ struct LayeredShadows {
   gpu::Texture visibility;  // R32Uint array, four bytes each; none of no layers
 };
 
+// What share of each colour translucent surfaces let through, of lights that have a layer and meet
+// some (render/layered_transmittance.glsl). Slot s lies in channel s % 4 of array layer s / 4.
+struct LayeredTransmittance {
+  static constexpr const char* kPortName = "LayeredTransmittance";
+  int slots = 0, scale = 2;
+  gpu::Buffer slotBlock;  // PaneSlotBlock: of each light
+  gpu::Texture colors;    // Rgba32Uint array; none of no slots
+};
+
 inline int arrayLayersOf(int layers) {
   return (layers + 3) / 4;
 }

@@ -30,12 +30,17 @@ float nearestDepth(ShadowMapValues map, vec2 uv, vec2 around) {
              max(nearestBlock(map, ivec2(from.x, to.y), level), nearestBlock(map, to, level)));
 }
 
-// As penumbraOf(), by the minimum filter: the nearest blocker stands for all.
-float penumbraOfNearest(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
-  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
-  if (!at.found) return 0.0;
+// By the minimum filter: the nearest blocker stands for all. at: found.
+float penumbraOfNearest(uint light, ShadowLookup at) {
   float size = lightSize(lights[light]), receiver = distanceOf(at.map, at.uvDepth.z);
   vec2 around = 0.5 * searchedWidth(at.map, size, receiver) / texelSize(at.map, at.w);
   float nearest = nearestDepth(at.map, at.uvDepth.xy, around);
   return nearest > at.uvDepth.z ? penumbraWidth(at.map, size, receiver, distanceOf(at.map, nearest)) : 0.0;
+}
+
+// As penumbraOf().
+float penumbraOfNearest(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) {
+  ShadowLookup at = lookUpShadow(light, positionW, normalW, toLightW);
+  if (!at.found) return 0.0;
+  return penumbraOfNearest(light, at);
 }

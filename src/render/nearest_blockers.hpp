@@ -13,6 +13,7 @@ struct NearestBlockers {
   static constexpr const char* kPortName = "NearestBlockers";
   static constexpr int kBlock = 8;  // texels, side of a block of level 0; as in the shaders
   gpu::Texture directional, local;
+  gpu::Texture directionalPanes, localPanes;  // of translucent surfaces; none where no map sees any
 };
 
 }  // namespace lucerna::render

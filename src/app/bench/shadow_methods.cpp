@@ -64,13 +64,18 @@ ShadowMethod layered(const Layered& l) {
   method.rows = {{"ShadowLayers", {"layers=32"}}, {"ShadowMask"}, {"ShadowTiles"}};
   if (l.exponential) method.rows[1].settings.push_back("values=exponential");
   if (l.search == 0) method.rows.push_back({"NearestBlockers"});
-  if (!l.sampled)
-    method.rows.push_back(
-        {"Penumbra", l.search > 0 ? std::vector{std::string("method=search"),
-                                                setting("search", l.search), resolution}
-                                  : std::vector{std::string("method=minimum"), resolution}});
-  method.rows.push_back({"ShadowBlur", {setting("kernel", l.kernel), resolution}});
+  const std::vector<std::string> widths =
+      l.search > 0 ? std::vector<std::string>{"method=search", setting("search", l.search)}
+                   : std::vector<std::string>{"method=minimum"};
+  const auto row = [&](const char* pass, std::vector<std::string> settings) {
+    settings.push_back(resolution);
+    method.rows.push_back({pass, std::move(settings)});
+  };
+  if (!l.sampled) row("Penumbra", widths);
+  row("ShadowBlur", {setting("kernel", l.kernel)});
   if (l.sampled) method.rows.back().settings.push_back("penumbrae=sampled");
+  row("LayeredTransmittance", widths);
+  method.rows.back().settings.push_back(setting("kernel", l.kernel));
   if (l.published)
     for (const char* pass : {"ShadowLayers", "ShadowMask", "Penumbra", "ShadowBlur"})
       std::ranges::find(method.rows, pass, &Row::pass)->settings.push_back("variant=published");

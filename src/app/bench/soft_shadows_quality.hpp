@@ -36,6 +36,9 @@ struct KnownScene {
 const std::vector<KnownScene>& knownScenes();
 inline const std::string kExponents = "half-plane";  // where lights change their size
 
+// Values in %, against the closed form.
+inline constexpr const char *kWidths = "width_error", *kPaneWidths = "pane_width_error";
+
 inline constexpr int kNearEdge = 3;         // px, see nearDepthEdges()
 int tracedSamples(const Results& results);  // a pixel of the reference
 

@@ -71,7 +71,7 @@ std::vector<Bar> bars() {
                 {"leak, %", scene, "leak", 0.5},
                 {"false shadow, %", scene, "false_shadow", 0.5},
                 {"halo pixels, %", scene, "halo", 0.3}});
-  all.insert(all.end(), {{"error of widths, %", "", "width_error", 10},
+  all.insert(all.end(), {{"error of widths, %", "", kWidths, 10},
                          {"exponent of the size, from 1", "", "exponent", 0.03, false, Of::FromOne},
                          {"others' steps of 255", "overlap 32", "others_steps", 2},
                          {"others' steps of 255", kHall, "others_steps", 2}});
@@ -120,19 +120,20 @@ Table barsTable(const Results& results) {
 }
 
 Table widthsTable(const Results& results) {
-  const std::string all = "all: median, wanted at most 10",
+  const std::string all = "all but panes: median, wanted at most 10",
                     exponent = "exponent of the light's size, wanted 1.00 +- 0.03";
   std::vector<std::string> rows;
   for (const KnownScene& known : knownScenes())
-    if (!results.samples({kNoise, known.name}, "width_error").empty()) rows.push_back(known.name);
+    for (const char* widths : {kWidths, kPaneWidths})
+      if (!results.samples({kNoise, known.name}, widths).empty()) rows.push_back(known.name);
   rows.insert(rows.end(), {all, exponent});
-  return tableOf("Error of penumbrae's widths against the closed form, %: median (worst)", "scene",
-                 rows, columns(false), [&](const std::string& row, const std::string& method) {
-                   if (row == all) return worstText(results.samples({method}, "width_error"));
-                   if (row == exponent)
-                     return spreadText(results.samples({method, kExponents}, "exponent"));
-                   return worstText(results.samples({method, row}, "width_error"));
-                 });
+  return tableOf(
+      "Error of penumbrae's widths against the closed form, %: median (worst)", "scene", rows,
+      columns(false), [&](const std::string& row, const std::string& method) {
+        if (row == all) return worstText(results.samples({method}, kWidths));
+        if (row == exponent) return spreadText(results.samples({method, kExponents}, "exponent"));
+        return worstText(results.samples({method, row}, row == "panes" ? kPaneWidths : kWidths));
+      });
 }
 
 Table filterTable(const Results& results) {

@@ -22,7 +22,12 @@ SceneChoice chosenByUser(const std::string& path) {
 std::vector<SceneChoice> scenesOf(const Suite& suite, const BenchOptions& options,
                                   Results& results) {
   std::vector<SceneChoice> scenes;
-  for (const std::string& path : options.scenes) scenes.push_back(chosenByUser(path));
+  for (const std::string& path : options.scenes) {
+    // One of its own it measures as ever.
+    const auto own = std::ranges::find(suite.scenes, path, &SceneChoice::path);
+    const bool known = own != suite.scenes.end() && !own->outside;
+    scenes.push_back(known ? *own : chosenByUser(path));
+  }
   if (!scenes.empty()) return scenes;
   for (SceneChoice scene : suite.scenes) {
     if (options.quick && !scene.quick) continue;

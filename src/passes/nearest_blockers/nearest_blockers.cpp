@@ -52,10 +52,19 @@ void NearestBlockers::reduce(gpu::Device& device, const gpu::Texture& maps, gpu:
 }
 
 void NearestBlockers::execute(graph::PassContext& context, const Params&, const Ports& ports) {
-  if (ports.shadowMaps->revision == revision_) return;
-  revision_ = ports.shadowMaps->revision;
-  reduce(context.device, ports.shadowMaps->directional, ports.nearestBlockers->directional);
-  reduce(context.device, ports.shadowMaps->local, ports.nearestBlockers->local);
+  const render::ShadowMaps& maps = *ports.shadowMaps;
+  render::NearestBlockers& out = *ports.nearestBlockers;
+  if (maps.revision == revision_) return;
+  revision_ = maps.revision;
+  reduce(context.device, maps.directional, out.directional);
+  reduce(context.device, maps.local, out.local);
+  if (maps.seesPanes()) {
+    reduce(context.device, maps.directionalPanes.depth, out.directionalPanes);
+    reduce(context.device, maps.localPanes.depth, out.localPanes);
+  } else {
+    out.directionalPanes = {};
+    out.localPanes = {};
+  }
 }
 
 }  // namespace lucerna::passes

@@ -99,5 +99,25 @@ TEST_F(NearestBlockers, AreFoundAnewWhereMapsAre) {
   EXPECT_EQ(testing::device().download(nearest_.local).pixel<float>(0, 0)[0], 0.5f * before);
 }
 
+// Translucent surfaces have copies of their own while some map sees them.
+TEST_F(NearestBlockers, AreFoundOfPanes) {
+  Random random(7);
+  maps_.local = mapsOf(randomDepths(8, 1, random));
+  maps_.directional = mapsOf(randomDepths(8, 1, random));
+  const std::vector<Image> panes = randomDepths(8, 1, random);
+  maps_.localPanes.depth = mapsOf(panes);
+  maps_.directionalPanes.depth = mapsOf(randomDepths(8, 1, random));
+  for (const bool sees : {true, false}) {
+    maps_.maps = {{.projection = {}, .place = {}, .seesPanes = sees}};
+    ++maps_.revision;
+    execute();
+    ASSERT_EQ(static_cast<bool>(nearest_.localPanes), sees);
+    ASSERT_EQ(static_cast<bool>(nearest_.directionalPanes), sees);
+    if (!sees) continue;
+    EXPECT_EQ(testing::device().download(nearest_.localPanes).pixel<float>(0, 0)[0],
+              greatest(panes[0], ivec2(0), ivec2(7)));
+  }
+}
+
 }  // namespace
 }  // namespace lucerna

@@ -16,6 +16,7 @@
 #ifndef ARRAY_LAYERS
 #define ARRAY_LAYERS 1
 #endif
+#include "render/penumbra_blur.glsl"
 #include "render/surface_pixel.glsl"
 #include "render/tangent_plane.glsl"
 
@@ -38,54 +39,25 @@ uniform float edgeStop;       // m
 
 layout(location = 0) out uint visibility[ARRAY_LAYERS];  // four layers, a byte each: see render/layered_shadows.hpp
 
-#ifdef HALF_SIZE
-const int kScale = 2;
-// What averages of four pixels and mixes of four texels blur along each axis, texels: a deviation of which penumbrae have
-// so much already.
-const float kInherent = 0.5;
-#else
-const int kScale = 1;
-const float kInherent = 0.0;
-#endif
 const uint kAsMask = 255u;
 const int kLayers = 4 * ARRAY_LAYERS;
-// A disc light's penumbra is a half circle, whose standard deviation is a quarter of its width. A Gaussian of this share of
-// the width, cut off where the penumbra ends, has the same, and quartiles within 4 % of those.
-const float kOfDisc = 0.25, kGaussian = 0.35;
 const float kPublishedStop = 0.03;    // of stored depth
 const float kPublishedCosine = 0.25;  // at least, where a surface is seen at a grazing angle
 
-// By how many texels a metre along a direction shifts the point.
-vec2 texelsOfMetre(vec4 clip, vec3 directionV) {
-  vec4 shift = view.clipFromView * vec4(directionV, 0.0);
-  return 0.5 / float(kScale) * view.size.xy * (shift.xy - clip.xy / clip.w * shift.w) / clip.w;
-}
-
-// A circle on the surface is an ellipse in the picture. Its Gaussian is one along x and one along a skewed axis after
-// another: Geusebroek and Smeulders, "Fast Anisotropic Gauss Filtering", IEEE Transactions on Image Processing 12(8), 2003.
-// xy: the axis' step for a deviation of a metre; z: its larger extent along both axes of the picture; texels.
+// See ellipseAxis().
 vec3 axisOf(vec3 positionV, vec3 normalV) {
-  vec4 clip = view.clipFromView * vec4(positionV, 1.0);
+#ifdef OF_MASK
+  const bool alongX = true;
+#else
+  const bool alongX = false;
+#endif
 #ifdef PUBLISHED
-  float across = 0.5 / float(kScale) * view.size.y * view.clipFromView[1][1] / clip.w;
+  float w = (view.clipFromView * vec4(positionV, 1.0)).w;
+  float across = 0.5 / float(kScale) * view.size.y * view.clipFromView[1][1] / w;
   float shrunk = across * sqrt(max(normalV.z, kPublishedCosine));
-#ifdef OF_MASK
-  return vec3(shrunk, 0.0, shrunk);
+  return alongX ? vec3(shrunk, 0.0, shrunk) : vec3(0.0, shrunk, shrunk);
 #else
-  return vec3(0.0, shrunk, shrunk);
-#endif
-#else
-  vec3 along = normalize(abs(normalV.y) < 0.8 ? vec3(normalV.z, 0.0, -normalV.x) : vec3(0.0, -normalV.z, normalV.y));
-  vec2 first = texelsOfMetre(clip, along), second = texelsOfMetre(clip, cross(normalV, along));
-  float xx = first.x * first.x + second.x * second.x;
-  float xy = first.x * first.y + second.x * second.y;
-  float yy = max(first.y * first.y + second.y * second.y, 1e-12);
-  float extent = sqrt(max(xx, yy));
-#ifdef OF_MASK
-  return vec3(sqrt(max(xx - xy * xy / yy, 0.0)), 0.0, extent);
-#else
-  return vec3(sqrt(yy) * vec2(xy / yy, 1.0), extent);
-#endif
+  return ellipseAxis(positionV, normalV, alongX);
 #endif
 }
 
@@ -138,13 +110,11 @@ void main() {
     float inherent = kInherent / (kOfDisc * length1);
     for (int l = 0; l < kLayers; ++l) {
       float squared = max(widths[l] * widths[l] - inherent * inherent, 0.0);
-      exponents[l] = squared > 0.0 ? -0.7213475 / (kGaussian * kGaussian * squared) : 0.0;  // of 2
+      exponents[l] = gaussianExponent(squared);
       ends[l] = 0.25 * squared;
       sums[l] = weights[l] = 0.0;
     }
-    // Taps stand for equal parts of the widest of the pixel's penumbrae.
-    float radius = min(0.5 * widest * length1, maximumRadius / float(kScale));
-    float apart = max(radius / (float(taps) + 0.5), 1.0);  // texels
+    float apart = tapsApart(widest, length1, maximumRadius / float(kScale), taps);
     vec2 direction = axis.xy / length1;
     for (int i = -taps; i <= taps; ++i) {
       ivec2 tap = clamp(texel + ivec2(round(float(i) * apart * direction)), ivec2(0), last);

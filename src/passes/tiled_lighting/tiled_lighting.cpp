@@ -61,6 +61,11 @@ float reachOf(TiledLighting::Comparison comparison) {
   return render::kFilteredReach;
 }
 
+bool hasPanesInLayers(const TiledLighting::Ports& ports) {
+  return ports.shadowMaps && ports.shadowMaps->seesPanes() && ports.layeredTransmittance &&
+         ports.layeredTransmittance->slots > 0;
+}
+
 // SHADOW_FILTER of render/shadows.glsl; 0: without.
 int filterOf(TiledLighting::Shadows shadows) {
   if (shadows == TiledLighting::Shadows::Pcf) return 1;
@@ -119,6 +124,9 @@ void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
     d.read("layeredShadows", &Ports::layeredShadows)
         .optional()
         .help("What each layer lets through; without it all lights have hard shadows.");
+    d.read("layeredTransmittance", &Ports::layeredTransmittance)
+        .optional()
+        .help("How panes colour layers; without it the maps say it, and their edges are hard.");
   }
   d.update("color", &Ports::color)
       .texture(Format::Rgba16Float)
@@ -149,6 +157,7 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Params& p
   if (hasLayers(ports))
     desc.defines["LAYERED_SHADOWS"] =
         std::to_string(render::arrayLayersOf(ports.layeredShadows->layers));
+  if (hasPanesInLayers(ports)) desc.defines["LAYERED_TRANSMITTANCE"] = "1";
   if (hasLayers(ports) && ports.shadowLayers->beyond == 0) desc.defines["ALL_IN_LAYERS"] = "1";
   gpu::ProgramPtr& program = programs_[desc];
   if (!program) program = device_.program(desc);
@@ -181,6 +190,10 @@ gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params, c
     rendering.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
     rendering.texture("layeredShadows", ports.layeredShadows->visibility, gpu::kNearest);
   }
+  if (hasPanesInLayers(ports)) {
+    rendering.buffer("PaneSlotBlock", ports.layeredTransmittance->slotBlock);
+    rendering.texture("layeredTransmittance", ports.layeredTransmittance->colors, gpu::kNearest);
+  }
   return rendering;
 }
 
@@ -195,6 +208,7 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
                           .cull = gpu::Cull::None});
   program.set("ambientScale", params.ambient);
   if (hasLayers(ports)) program.set("layerScale", ports.layeredShadows->scale);
+  if (hasPanesInLayers(ports)) program.set("paneScale", ports.layeredTransmittance->scale);
   if (ports.shadowMaps) {
     program.set("shadowFilterRadius", params.kernel / 2);
     program.set("shadowSearchRadius", params.search / 2);

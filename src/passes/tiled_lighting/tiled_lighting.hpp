@@ -38,6 +38,7 @@ class TiledLighting {
     graph::In<render::PrefilteredShadows> prefilteredShadows;
     graph::In<render::ShadowLayers> shadowLayers;
     graph::In<render::LayeredShadows> layeredShadows;
+    graph::In<render::LayeredTransmittance> layeredTransmittance;
     graph::In<gpu::Texture> shadowMask;
     graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive, ambientVisibility;
     graph::InOut<gpu::Texture> color;
