@@ -79,10 +79,22 @@ float widthOf(ivec2 pixel, int layer) {  // m
 // Of layer l, in bytes of four layers.
 vec4 shareOf(uvec4 bytes, int l) { return vec4(bytes >> uint(8 * (l % 4)) & 255u) / 255.0; }
 
+// Four layers of a pixel before this axis' blur. Others may blur over it: what has no penumbra itself is as its mask.
+uint unblurred(ivec2 pixel, int a) {
+#if defined(OF_MASK) && defined(SHADOW_VALUES)
+  return texelFetch(shadowValues, ivec3(pixel, a), 0).r;
+#elif defined(OF_MASK)
+  uint lit = ~texelFetch(shadowMask, pixel, 0).r >> uint(4 * a);
+  return 255u * (lit & 1u | (lit & 2u) << 7 | (lit & 4u) << 14 | (lit & 8u) << 21);
+#else
+  return 0x01010101u * kAsMask;
+#endif
+}
+
 void main() {
   ivec2 texel = ivec2(gl_FragCoord.xy), pixel = kScale * texel;
   ivec2 picture = textureSize(depth, 0), last = (picture + kScale - 1) / kScale - 1;
-  for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = 0xffffffffu;
+  for (int a = 0; a < ARRAY_LAYERS; ++a) visibility[a] = unblurred(pixel, a);
   float widest = 0.0, widths[kLayers];  // m
 #ifdef SAMPLED_PENUMBRAE
   float found[kLayers];
@@ -158,7 +170,7 @@ void main() {
         int l = 4 * a + b;
         float lit = sums[l] / max(weights[l], 1e-6);
 #ifdef OF_MASK
-        uint byte = uint(255.0 * lit + 0.5);
+        uint byte = widths[l] > 0.0 ? uint(255.0 * lit + 0.5) : visibility[a] >> uint(8 * b) & 255u;
 #else
         bool sharp = kOfDisc * widths[l] * axis.z <= 0.5 * kInherent;
         uint byte = sharp ? kAsMask : uint(254.0 * lit + 0.5);

@@ -120,6 +120,46 @@ TEST_P(SoftShadows, ArePenumbraeOfTheRightWidth) {
   }
 }
 
+// The blur reaches into tiles that are all dark or all lit, where nothing is blurred: what it finds
+// there is the mask. The shadow's edge is level, as the second axis runs upwards.
+TEST(ShadowBlur, TakesTilesWithoutPenumbraeAsTheirMask) {
+  constexpr uvec2 kPicture{64, 256};
+  constexpr float kEdge = 2.f;  // m: the shadow's on the wall, as high as the lamp is deep
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  testing::addBox(scene, {0, -20.f, -0.5f * kWall}, {40, 40, 1e-3f});
+  addLamp(scene, {0, -kEdge, 0}, {0, -kEdge, -kWall});
+  scene.lights.back().radius = 0.8f;
+  updateTransforms(scene);
+  graph::Pipeline pipeline = softRows("layered");
+  const Image without =
+      testing::asFloatRgb(testing::valueOf(scene, pipeline, kPicture, "TiledLighting.color"));
+  graph::PassRow row{.name = "ShadowTiles", .type = "ShadowTiles", .reads = {}, .params = {}};
+  row.params["reach"] = std::int64_t{0};
+  pipeline.passes.insert(std::ranges::find(pipeline.passes, "Penumbra", &graph::PassRow::type),
+                         row);
+  const Image with =
+      testing::asFloatRgb(testing::valueOf(scene, pipeline, kPicture, "TiledLighting.color"));
+  const float height = 2.f * kWall * std::tan(0.5f * scene.cameras[0].fovY);  // m
+  const float step = std::ranges::max(without.as<float>()) / 255.f;
+  int different = 0;
+  for (int y = 0; y < with.height(); ++y) {
+    const float at = height * (0.5f - (static_cast<float>(y) + 0.5f) / kPicture.y);
+    if (at < 0.1f) continue;  // the box
+    const float more =
+        with.pixel<float>(kPicture.x / 2, y)[1] - without.pixel<float>(kPicture.x / 2, y)[1];
+    different += std::abs(more) > step;
+    if (at > kEdge + 0.1f) {
+      EXPECT_GT(more, -step) << at;
+    }
+    if (at < kEdge - 0.1f) {
+      EXPECT_LT(more, step) << at;
+    }
+  }
+  EXPECT_GT(different, 10) << "penumbrae are wider than a tile";
+  testing::expectNoDebugMessages();
+}
+
 // However many lamps overlap, each has the shadow that it has alone: light adds up.
 TEST_P(SoftShadows, OfLampsTogetherAreThoseOfEachAlone) {
   constexpr uvec2 kPicture{96, 64};
