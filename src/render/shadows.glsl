@@ -125,21 +125,23 @@ vec4 fourDepths(ShadowMapValues map, vec2 corner) {
 }
 
 // Planes do not shadow themselves, and need not be moved off for it as far as a texel is wide: what stands off them by
-// less still throws its shadow.
-float shadowComparison(ShadowMapValues map, vec3 uvDepth, vec2 slope) {
-  vec2 place = uvDepth.xy / map.texel.z - 0.5;
+// less still throws its shadow. offset: from the point, in u and v; beyond directional maps all is lit.
+float shadowComparison(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 offset) {
+  vec2 uv = uvDepth.xy + offset, place = uv / map.texel.z - 0.5;
   vec2 first = clamp(floor(place), vec2(0.0), vec2(round(1.0 / map.texel.z) - 2.0));
   vec4 stored = fourDepths(map, (first + 1.0) * map.texel.z);
-  vec2 before = (first - place) * map.texel.z, after = before + map.texel.z;
+  vec2 before = offset + (first - place) * map.texel.z, after = before + map.texel.z;
   vec4 rise = slope.x * vec4(before.x, after.x, after.x, before.x) + slope.y * vec4(after.y, after.y, before.y, before.y);
   vec4 lit = vec4(lessThanEqual(stored, uvDepth.z + max(rise, 0.0)));  // as besideIt()
   vec2 part = clamp(place - first, 0.0, 1.0), left = mix(lit.wx, lit.zy, part.x);
-  return mix(left.x, left.y, part.y);
+  bool beyond = isDirectional(map) && any(greaterThan(abs(uv - 0.5), vec2(0.5)));
+  return beyond ? 1.0 : mix(left.x, left.y, part.y);
 }
 #else
-float shadowComparison(ShadowMapValues map, vec3 uvDepth, vec2 slope) {
-  return isDirectional(map) ? texture(directionalShadowMaps, vec4(uvDepth.xy, float(map.place.x), uvDepth.z))
-                            : texture(localShadowMaps, vec4(inLayers(map, uvDepth.xy), uvDepth.z));
+float shadowComparison(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 offset) {
+  vec3 beside = besideIt(uvDepth, slope, offset);
+  return isDirectional(map) ? texture(directionalShadowMaps, vec4(beside.xy, float(map.place.x), beside.z))
+                            : texture(localShadowMaps, vec4(inLayers(map, beside.xy), beside.z));
 }
 #endif
 
@@ -148,7 +150,7 @@ float filteredShadow(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apart, 
   float sum = 0.0;
   for (int y = -radius; y <= radius; ++y)
     for (int x = -radius; x <= radius; ++x)
-      sum += shadowComparison(map, besideIt(uvDepth, slope, vec2(x, y) * apart), slope);
+      sum += shadowComparison(map, uvDepth, slope, vec2(x, y) * apart);
   float side = 2.0 * float(radius) + 1.0;
   return sum / (side * side);
 }
@@ -169,6 +171,15 @@ float exponentialShadow(ShadowMapValues map, vec3 uvDepth, float falloff) {
   return exp(-falloff * max(behind, 0.0));
 }
 
+// To the middle of the texel that is read there, if comparisons are exact about it.
+vec2 searchedOffset(ShadowMapValues map, vec2 uv, vec2 offset) {
+#ifdef PLANE_COMPARISON
+  return (floor((uv + offset) / map.texel.z) + 0.5) * map.texel.z - uv;
+#else
+  return offset;
+#endif
+}
+
 // Of what is nearer to the light around a point.
 struct Blockers {
   float distance;  // mean of distanceOf()
@@ -178,11 +189,7 @@ Blockers searchBlockers(ShadowMapValues map, vec3 uvDepth, vec2 slope, vec2 apar
   Blockers found = Blockers(0.0, 0.0);
   for (int y = -shadowSearchRadius; y <= shadowSearchRadius; ++y)
     for (int x = -shadowSearchRadius; x <= shadowSearchRadius; ++x) {
-      vec2 offset = vec2(x, y) * apart;
-#ifdef PLANE_COMPARISON
-      offset = (floor((uvDepth.xy + offset) / map.texel.z) + 0.5) * map.texel.z - uvDepth.xy;
-#endif
-      vec3 beside = besideIt(uvDepth, slope, offset);
+      vec3 beside = besideIt(uvDepth, slope, searchedOffset(map, uvDepth.xy, vec2(x, y) * apart));
       float stored = storedDepth(map, beside.xy);
       if (stored <= beside.z) continue;
       found.distance += distanceOf(map, stored);
@@ -266,7 +273,7 @@ float shadowVisibility(uint light, vec3 positionW, vec3 normalW, vec3 toLightW) 
   const vec2 slope = vec2(0.0);
 #endif
 #ifndef SHADOW_FILTER
-  return shadowComparison(at.map, at.uvDepth, slope);
+  return shadowComparison(at.map, at.uvDepth, slope, vec2(0.0));
 #elif SHADOW_FILTER == 1
   return filteredShadow(at.map, at.uvDepth, slope, vec2(at.map.texel.z), shadowFilterRadius);
 #else

@@ -31,14 +31,14 @@ struct TexelPoints {
 TexelPoints pointsOf(ivec2 pixel, SurfacePixel s) {
   vec3 positionV = (view.viewFromWorld * vec4(s.positionW, 1.0)).xyz;
   vec4 plane = tangentPlaneAt(positionV, mat3(view.viewFromWorld) * s.planeNormalW, 0.0).planeC;
-  float own = texelFetch(depth, pixel, 0).r;
+  float farthest = 32.0 * pixelWidthAt(positionV);  // m: else the plane is seen edge on
   vec3 corners[3];  // the middle, and half a pixel beside it
   bool near = scale > 1;
   for (int i = 0; i < 3; ++i) {
     vec2 ndc = ndcOfPixel(vec2(pixel) + 0.5 * float(scale) + 0.5 * vec2(i == 1, i == 2));
     float there = -(dot(plane.xy, ndc) + plane.w) / plane.z;
-    near = near && abs(there - own) < 0.1 * own;  // or the plane is seen edge on
     corners[i] = worldOfView(positionVOf(ndc, there));
+    near = near && distance(corners[i], s.positionW) < farthest;
   }
   if (!near) return TexelPoints(s.positionW, vec3(0.0), vec3(0.0));
   return TexelPoints(corners[0], corners[1] - corners[0], corners[2] - corners[0]);

@@ -116,7 +116,7 @@ void LayeredTransmittance::findHard(const Params& params, const Ports& ports, in
       targets.colors.push_back({texture, gpu::Load::Discard, vec4(0.f), layer});
   gpu::Rendering rendering = device_.render(targets);
   rendering.use(program, {.cull = gpu::Cull::None});
-  bindLayerLookup(rendering, program, params, ports, render::kFilteredReach);
+  bindLayerLookup(rendering, program, params, ports, render::kPlaneReach);
   rendering.buffer("PaneSlotBlock", ports.layeredTransmittance->slotBlock);
   if (byNearest) {
     rendering.texture("directionalNearestBlockers", ports.nearestBlockers->directionalPanes,

@@ -54,7 +54,9 @@ void NearestBlockers::reduce(gpu::Device& device, const gpu::Texture& maps, gpu:
 void NearestBlockers::execute(graph::PassContext& context, const Params&, const Ports& ports) {
   const render::ShadowMaps& maps = *ports.shadowMaps;
   render::NearestBlockers& out = *ports.nearestBlockers;
-  if (maps.revision == revision_) return;
+  // Kept maps may come to see panes again without being drawn.
+  const bool hasPanes = static_cast<bool>(out.localPanes);
+  if (maps.revision == revision_ && maps.seesPanes() == hasPanes) return;
   revision_ = maps.revision;
   reduce(context.device, maps.directional, out.directional);
   reduce(context.device, maps.local, out.local);

@@ -99,7 +99,8 @@ TEST_F(NearestBlockers, AreFoundAnewWhereMapsAre) {
   EXPECT_EQ(testing::device().download(nearest_.local).pixel<float>(0, 0)[0], 0.5f * before);
 }
 
-// Translucent surfaces have copies of their own while some map sees them.
+// Translucent surfaces have copies of their own while some map sees them; kept maps may come to see
+// them again.
 TEST_F(NearestBlockers, AreFoundOfPanes) {
   Random random(7);
   maps_.local = mapsOf(randomDepths(8, 1, random));
@@ -107,9 +108,9 @@ TEST_F(NearestBlockers, AreFoundOfPanes) {
   const std::vector<Image> panes = randomDepths(8, 1, random);
   maps_.localPanes.depth = mapsOf(panes);
   maps_.directionalPanes.depth = mapsOf(randomDepths(8, 1, random));
-  for (const bool sees : {true, false}) {
+  ++maps_.revision;
+  for (const bool sees : {true, false, true}) {
     maps_.maps = {{.projection = {}, .place = {}, .seesPanes = sees}};
-    ++maps_.revision;
     execute();
     ASSERT_EQ(static_cast<bool>(nearest_.localPanes), sees);
     ASSERT_EQ(static_cast<bool>(nearest_.directionalPanes), sees);

@@ -24,6 +24,10 @@ void ShadowTiles::describe(graph::PassInfo<Params, Ports>& d) {
       .texture(Format::R32Uint)
       .sameSizeAs("depth")
       .help("Hard shadows.");
+  d.read("shadowValues", &Ports::shadowValues)
+      .optional()
+      .help(
+          "Bytes of each layer, in place of the mask's bits: what is dark in part has penumbrae.");
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
       .help("Reversed depth: pixels where nothing was drawn do not count.");
@@ -35,6 +39,8 @@ void ShadowTiles::describe(graph::PassInfo<Params, Ports>& d) {
 
 ShadowTiles::ShadowTiles(gpu::Device& device)
     : bitsProgram_(device.program({.compute = "passes/shadow_tiles/tile_bits.comp"})),
+      valuesProgram_(device.program(
+          {.compute = "passes/shadow_tiles/tile_bits.comp", .defines = {{"SHADOW_VALUES", "1"}}})),
       lightsProgram_(device.program({.compute = "passes/shadow_tiles/partly_lit.comp"})) {}
 
 void ShadowTiles::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
@@ -56,9 +62,15 @@ void ShadowTiles::execute(graph::PassContext& context, const Params& params, con
   };
   {
     gpu::Computing computing = device.compute();
-    computing.use(*bitsProgram_);
+    const bool byValues = ports.shadowValues && ports.shadowValues->layers > 0;
+    computing.use(byValues ? *valuesProgram_ : *bitsProgram_);
     computing.buffer("TileBitBlock", tileBits_);
-    computing.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
+    if (byValues) {
+      computing.texture("shadowValues", ports.shadowValues->bytes, gpu::kNearest);
+      valuesProgram_->set("arrayLayers", ports.shadowValues->bytes.desc().layers);
+    } else {
+      computing.texture("shadowMask", *ports.shadowMask, gpu::kNearest);
+    }
     computing.texture("depth", *ports.depth, gpu::kNearest);
     computing.dispatch(tiles(ports.depth->width()), tiles(ports.depth->height()));
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "graph/pass_info.hpp"
+#include "render/layered_shadows.hpp"
 #include "render/light_list.hpp"
 #include "render/shadow_layers.hpp"
 #include "render/tile_lights.hpp"
@@ -18,6 +19,7 @@ class ShadowTiles {
     graph::In<render::TileLights> tileLights;
     graph::In<render::ShadowLayers> shadowLayers;
     graph::In<gpu::Texture> shadowMask, depth;
+    graph::In<render::ShadowValues> shadowValues;
     graph::Out<render::TileLights> partlyLit;
   };
 
@@ -26,7 +28,7 @@ class ShadowTiles {
   void execute(graph::PassContext& context, const Params& params, const Ports& ports);
 
  private:
-  gpu::ProgramPtr bitsProgram_, lightsProgram_;
+  gpu::ProgramPtr bitsProgram_, valuesProgram_, lightsProgram_;
   gpu::Buffer tileBits_;  // two words a tile: layers that are blocked, and that are lit, somewhere
 };
 

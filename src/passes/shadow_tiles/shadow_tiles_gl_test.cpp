@@ -122,5 +122,55 @@ TEST(ShadowTiles, NameTheLightsThatAreBlockedInPart) {
   testing::expectNoDebugMessages();
 }
 
+// Bytes of layers in place of bits: what is dark in part everywhere is neither all lit nor all
+// dark.
+TEST(ShadowTiles, NameTheLightsWhoseValuesAreBetween) {
+  Image depthImage(16, 16, 1, ComponentType::F32);
+  std::ranges::fill(depthImage.as<float>(), 0.5f);
+  const gpu::Texture depth = uploaded(depthImage, gpu::Format::Depth32F);
+  render::LightList lights;
+  std::vector<std::uint32_t> lightWords(8 + 20 * 4);
+  lightWords[4] = 4;  // of LightHeader
+  lights.block = bufferOf(lightWords);
+  render::ShadowLayers layers;
+  layers.block = bufferOf(std::vector<std::uint32_t>{0, 1, 2, 3});
+  render::TileLights tiles{.tiles = 1,
+                           .block = bufferOf(std::vector<std::uint32_t>{1, 1, 0, 0, 15})};
+  Image bytes(16, 16, 1, ComponentType::F32);
+  std::ranges::fill(bytes.as<std::uint32_t>(), 0x00c8ffffu);  // layers: lit, lit, between, dark
+  bytes.as<std::uint32_t>()[7] = 0x00c8feffu;  // and the second hardly dark at one pixel
+  render::ShadowValues values;
+  values.layers = 4;
+  values.bytes = testing::device().createTexture({.kind = gpu::TextureKind::Array2D,
+                                                  .format = gpu::Format::R32Uint,
+                                                  .width = 16,
+                                                  .height = 16,
+                                                  .layers = 1},
+                                                 "values");
+  testing::device().upload(values.bytes, bytes);
+  Image none(16, 16, 1, ComponentType::F32);
+  std::ranges::fill(none.as<std::uint32_t>(), 8u);  // the mask of those values
+  const gpu::Texture mask = uploaded(none, gpu::Format::R32Uint);
+  passes::ShadowTiles pass(testing::device());
+  for (const bool byValues : {false, true}) {
+    render::TileLights found;
+    passes::ShadowTiles::Ports ports;
+    ports.lights.bind(&lights);
+    ports.tileLights.bind(&tiles);
+    ports.shadowLayers.bind(&layers);
+    ports.shadowMask.bind(&mask);
+    if (byValues) ports.shadowValues.bind(&values);
+    ports.depth.bind(&depth);
+    ports.partlyLit.bind(&found);
+    graph::PassContext context{.device = testing::device()};
+    pass.execute(context, {.reach = 0}, ports);
+    const std::vector<std::byte> words = testing::device().download(found.block);
+    std::uint32_t named = 0;
+    std::memcpy(&named, words.data() + 16, 4);
+    EXPECT_EQ(named, byValues ? 6u : 0u);
+  }
+  testing::expectNoDebugMessages();
+}
+
 }  // namespace
 }  // namespace lucerna

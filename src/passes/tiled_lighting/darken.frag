@@ -2,7 +2,10 @@
 // so the picture loses the share that a white Phong surface in its place would lose.
 //   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
 //   TILE_LIGHTS         see render/tile_lights.glsl
+//   SHADOW_FILTER, PLANE_COMPARISON, SHADOW_TRANSMISSION  see render/shadows.glsl
+//   PREFILTERED_SHADOWS, LAYERED_SHADOWS, LAYERED_TRANSMITTANCE  see visibility.glsl
 // variant: AMBIENT_VISIBILITY=1 TILE_LIGHTS=1
+// variant: TILE_LIGHTS=1 PLANE_COMPARISON=1 LAYERED_SHADOWS=2
 #define LIGHT_VISIBILITY
 #include "passes/tiled_lighting/visibility.glsl"
 

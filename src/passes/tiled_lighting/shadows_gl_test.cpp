@@ -211,8 +211,8 @@ TEST(Horizon, HidesWhatOfALampIsBehindASurfacesPlane) {
     SCOPED_TRACE(height);
     scene::Scene scene = testing::emptyScene();
     testing::addWall(scene, kWall);
-    // (1, 0, 0.5) in the world, before the wall's scale.
-    for (vec3& normal : scene.meshes.back().normals) normal = normalize(vec3(10, 0, 0.01f));
+    // (1, 0, 1) in the world, before the wall's scale.
+    for (vec3& normal : scene.meshes.back().normals) normal = normalize(vec3(10, 0, 0.02f));
     scene::Light light;
     light.intensity = 100.f;
     light.radius = kRadius;
@@ -232,6 +232,33 @@ TEST(Horizon, HidesWhatOfALampIsBehindASurfacesPlane) {
     const float share =
         height < 0.f ? 0.f : 0.5f + (t * std::sqrt(1.f - t * t) + std::asin(t)) / kPi;
     EXPECT_NEAR(brightness("pcss") / open, share, 0.01f);
+  }
+  testing::expectNoDebugMessages();
+}
+
+// A post as wide as a pixel, far before a wall: neither of its neighbours tells how it is turned.
+TEST(Horizon, LeavesLightOnWhatIsAPixelWide) {
+  scene::Scene scene = testing::emptyScene();
+  testing::addWall(scene, kWall);
+  constexpr float kPost = 4.f;  // m before the camera
+  const float pixel = 2.f * kPost * std::tan(0.5f * scene.cameras[0].fovY) / kSize.y;  // m there
+  testing::addBox(scene, {0, 0, -kPost}, {1.2f * pixel, 2, 0.01f});
+  scene::Light light;
+  light.intensity = 100.f;
+  testing::addLight(scene, light, {2, 1, 0}, {0, 0, -kPost});
+  updateTransforms(scene);
+  for (const float side : {-1.f, 1.f}) {
+    scene.nodes[scene.lights.back().node].translation.x = 2.f * side;
+    updateTransforms(scene);
+    const auto brightness = [&](const std::string& shadows) {
+      graph::Pipeline pipeline = shadowRows();
+      pipeline.passes.back().params["shadows"] = shadows;
+      return testing::centerOf(shadowed(scene, pipeline)).y;
+    };
+    const float open = brightness("none");
+    ASSERT_GT(open, 0.01f);
+    EXPECT_FLOAT_EQ(brightness("hard"), open) << side;
+    EXPECT_FLOAT_EQ(brightness("pcss"), open) << side;
   }
   testing::expectNoDebugMessages();
 }

@@ -114,15 +114,19 @@ Surface shadowedSurface(ivec2 pixel) {
   return s;
 }
 
+const float kSameFace = 0.5;  // cosine of what a normal for shading leans at most
+
 // What of a light the surface's own plane hides: maps do not tell, where surfaces turn away from the light and depths hardly
 // differ. Of a disc of the light's radius, which stands across its axis or, without one, across the way to it.
-float shareAboveHorizon(LightValues light, vec3 positionW) {
-  vec3 toLight = light.position.xyz - positionW * light.position.w;
-  float height = dot(toLight, planeNormalW);
+float shareAboveHorizon(Surface s, LightValues light) {
+  vec3 toLight = light.position.xyz - s.positionW * light.position.w;
+  // What is a pixel wide has neighbours on other surfaces alone, and through those no plane of its own.
+  vec3 ownNormalW = dot(planeNormalW, s.normalW) > kSameFace ? planeNormalW : s.normalW;
+  float height = dot(toLight, ownNormalW);
 #if defined(LAYERED_SHADOWS) || defined(PREFILTERED_SHADOWS) || SHADOW_FILTER == 2
   bool spot = light.attenuation.w > -1.0;
   vec3 axisW = spot ? light.axis.xyz : normalize(toLight);
-  float cosine = dot(planeNormalW, axisW);
+  float cosine = dot(ownNormalW, axisW);
   float upwards = 0.5 * lightSize(light) * sqrt(max(1.0 - cosine * cosine, 0.0));
   float t = clamp(height / max(upwards, 1e-6), -1.0, 1.0);
   return 0.5 + (t * sqrt(1.0 - t * t) + asin(t)) / kPi;
@@ -151,7 +155,7 @@ float unblockedShare(Surface s, uint light, vec3 toLightW) {
 vec3 lightVisibility(Surface s, uint light) {
   LightValues values = lights[light];
   vec3 toLightW = normalize(values.position.xyz - s.positionW * values.position.w);
-  vec3 visible = vec3(unblockedShare(s, light, toLightW) * shareAboveHorizon(values, s.positionW));
+  vec3 visible = vec3(unblockedShare(s, light, toLightW) * shareAboveHorizon(s, values));
 #if defined(LAYERED_TRANSMITTANCE)
   visible *= layeredColor(light, s.positionW, toLightW);
 #elif defined(SHADOW_TRANSMISSION)
