@@ -41,6 +41,8 @@ const char* nameOf(FaultKind kind) {
       return "DisabledWithoutStandIn";
     case FaultKind::ProducerChanged:
       return "ProducerChanged";
+    case FaultKind::MadeLater:
+      return "MadeLater";
     case FaultKind::MissingFeature:
       return "MissingFeature";
     case FaultKind::UnsupportedFormat:

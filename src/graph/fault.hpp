@@ -23,6 +23,7 @@ enum class FaultKind {
   OutputNeverRead,
   DisabledWithoutStandIn,
   ProducerChanged,
+  MadeLater,  // what an optional input could read
   MissingFeature,
   UnsupportedFormat,
   BadOutput,

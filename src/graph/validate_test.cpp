@@ -308,17 +308,18 @@ TEST_F(Validate, UnusableValue) {
 }
 
 TEST_F(Validate, OutputNeverRead) {
-  const Validation result = check({"GBuffer", "Light", "Ao", "Tone"});
+  const Validation result = check({"GBuffer", "Ao", "Light", FakeRow("Ao").named("Ao2"), "Tone"});
   const Fault fault = only(result, FaultKind::OutputNeverRead, Severity::Warning);
-  EXPECT_THAT(fault.place, HasSubstr("'Ao'"));
-  EXPECT_TRUE(result.plan->rows[2].culled);
+  EXPECT_THAT(fault.place, HasSubstr("'Ao2'"));
+  EXPECT_TRUE(result.plan->rows[3].culled);
   EXPECT_FALSE(result.plan->rows[0].culled);
 }
 
 TEST_F(Validate, KeptValuesAreRead) {
-  const Validation result = check({"GBuffer", "Light", "Ao", "Tone"}, "", {"Ao.mask"});
+  const Validation result =
+      check({"GBuffer", "Ao", "Light", FakeRow("Ao").named("Ao2"), "Tone"}, "", {"Ao2.mask"});
   EXPECT_THAT(result.text(), IsEmpty());
-  EXPECT_FALSE(result.plan->rows[2].culled);
+  EXPECT_FALSE(result.plan->rows[3].culled);
 }
 
 //    GBuffer (off) -> Light
@@ -340,6 +341,13 @@ TEST_F(Validate, ProducerChanged) {
   const Fault fault = only(result, FaultKind::ProducerChanged, Severity::Warning);
   EXPECT_THAT(fault.found, AllOf(HasSubstr("Ao1.mask"), HasSubstr("'Ao2'")));
   EXPECT_THAT(fault.wanted, HasSubstr("the constant (1, 1, 1, 1)"));
+}
+
+TEST_F(Validate, MadeLater) {
+  const std::string text = check({"GBuffer", "Light", "Ao"}, "Light").text();
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("MadeLater"), HasSubstr("only a later pass, 'Ao', makes 'mask'"),
+                    HasSubstr("move 'Ao' before 'Light'")));
 }
 
 TEST_F(Validate, NoWarningWhenTheStandInIsTheProducer) {

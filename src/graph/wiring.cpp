@@ -101,8 +101,28 @@ Binding Wiring::byName(std::size_t row, const PortDescription& port) {
     for (std::size_t i = row; i < pipeline_.passes.size(); ++i)
       if (const PortDescription* out = outputOf(i, port.name); out && pipeline_.passes[i].enabled)
         return bound(output(i, *out));
-  if (port.history || port.optional) return {};
+  if (port.history) return {};
+  if (port.optional) {
+    Binding none;
+    none.warning = madeLater(row, port);
+    return none;
+  }
   return faulty(missing(row, port, disabled));
+}
+
+// An update without what it updates begins anew; an input that is only read goes without.
+std::optional<Problem> Wiring::madeLater(std::size_t row, const PortDescription& port) const {
+  if (port.direction != Direction::In) return std::nullopt;
+  for (std::size_t i = row + 1; i < pipeline_.passes.size(); ++i)
+    if (outputOf(i, port.name) && pipeline_.passes[i].enabled) return laterMaker(row, i, port);
+  return std::nullopt;
+}
+
+Problem Wiring::laterMaker(std::size_t row, std::size_t later, const PortDescription& port) const {
+  return {.kind = port.optional ? FaultKind::MadeLater : FaultKind::MissingInput,
+          .found = fmt::format("only a later pass, '{}', makes '{}'", nameOf(later), port.name),
+          .wanted = port.type.text(),
+          .remedy = fmt::format("move '{}' before '{}'", nameOf(later), nameOf(row))};
 }
 
 std::optional<Problem> Wiring::producerChange(std::size_t disabledRow, const PortDescription& port,
@@ -136,10 +156,7 @@ Problem Wiring::missing(std::size_t row, const PortDescription& port,
                                   nameOf(row))};
   for (std::size_t i = row; i < pipeline_.passes.size(); ++i)
     if (i != row && outputOf(i, port.name) && pipeline_.passes[i].enabled)
-      return {.kind = FaultKind::MissingInput,
-              .found = fmt::format("only a later pass, '{}', makes '{}'", nameOf(i), port.name),
-              .wanted = wanted,
-              .remedy = fmt::format("move '{}' before '{}'", nameOf(i), nameOf(row))};
+      return laterMaker(row, i, port);
   std::vector<std::string> makers;
   for (const std::string& type : registry_.typeNames())
     if (type != pipeline_.passes[row].type) {

@@ -46,6 +46,8 @@ class Wiring {
   Binding byName(std::size_t row, const PortDescription& port);
   std::optional<Problem> producerChange(std::size_t disabledRow, const PortDescription& port,
                                         const Source& producer);
+  std::optional<Problem> madeLater(std::size_t row, const PortDescription& port) const;
+  Problem laterMaker(std::size_t row, std::size_t later, const PortDescription& port) const;
   Problem missing(std::size_t row, const PortDescription& port,
                   const std::vector<std::size_t>& disabled);
   Source output(std::size_t row, const PortDescription& port);

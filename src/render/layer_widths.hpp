@@ -7,6 +7,29 @@
 
 namespace lucerna::render {
 
+// How wide a penumbra is.
+struct LayerWidthParams {
+  enum class Method { Search, Minimum };
+  Method method = Method::Search;
+  int search = 5;  // depths along each side, odd
+};
+
+// Params: derived from that above.
+template <typename Params, typename Ports>
+void describeWidths(graph::PassInfo<Params, Ports>& d) {
+  d.param("method", static_cast<LayerWidthParams::Method Params::*>(&LayerWidthParams::method))
+      .choices({"search", "minimum"})
+      .rebuilds(graph::Rebuild::Ports)
+      .help(
+          "How wide penumbrae are. search: by the mean distance of what is in the light's way "
+          "around a point; minimum: by that of the nearest to the light, from NearestBlockers.");
+  d.param("search", static_cast<int Params::*>(&LayerWidthParams::search))
+      .range(3, 47)
+      .help(
+          "search: depths along each side of a light's map that are read, odd, an even number "
+          "being taken as the next.");
+}
+
 struct LayerWidthPorts : LayerLookupPorts {
   graph::In<TileLights> partlyLit;
   graph::In<NearestBlockers> nearestBlockers;  // null: blockers are searched

@@ -70,7 +70,7 @@ void prepareShadowMaps(gpu::Device& device, ShadowMaps& shadowMaps,
 
 // Values of shadowReach (render/shadows.glsl), texels: of the nearest depth, of the hardware's mean
 // of four, and of comparisons along the surface's plane (PLANE_COMPARISON).
-inline constexpr float kNearestReach = 0.5f, kFilteredReach = 1.f, kPlaneReach = 0.25f;
+inline constexpr float kNearestReach = 0.5f, kFilteredReach = 1.f, kPlaneReach = 0.35f;
 
 void bindShadowMaps(gpu::Commands& commands, const ShadowMaps& shadowMaps, bool filtered);
 

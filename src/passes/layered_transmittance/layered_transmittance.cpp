@@ -1,7 +1,6 @@
 #include "passes/layered_transmittance/layered_transmittance.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace lucerna::passes {
 
@@ -46,34 +45,9 @@ void LayeredTransmittance::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("LayeredTransmittance",
          "Finds how translucent surfaces colour each layer's light, and blurs it by the width of "
          "their penumbrae.");
-  d.param("method", &Params::method)
-      .choices({"search", "minimum"})
-      .rebuilds(graph::Rebuild::Ports)
-      .help(
-          "How wide penumbrae are. search: by the mean distance of panes around a point; minimum: "
-          "by that of the nearest to the light, from NearestBlockers.");
-  d.param("search", &Params::search)
-      .range(3, 47)
-      .help("search: depths along each side of a light's map that are read, odd.");
-  d.param("kernel", &Params::kernel)
-      .range(3, 47)
-      .help("Taps along each of two axes, odd; they spread over the widest penumbra of a pixel.");
-  d.param("maximumRadius", &Params::maximumRadius)
-      .range(2, 256)
-      .unit("px")
-      .rebuilds(graph::Rebuild::Ports)
-      .help("Along each axis nothing farther away counts: larger penumbrae are cut off.");
-  d.param("edgeStop", &Params::edgeStop)
-      .range(0.0001, 100)
-      .unit("m")
-      .help(
-          "What is farther off a pixel's tangent plane than this, and than a pixel is wide there, "
-          "is another surface and does not count.");
-  d.param("resolution", &Params::resolution)
-      .choices({"half", "full"})
-      .help("Of the picture: half stands for two pixels along each axis, with one width for all.");
-  // Both axes reach along x, as the second is askew.
-  describeLayerLookup(d, 2 * static_cast<int>(std::ceil(d.values().maximumRadius)) + 4);
+  describeWidths(d);
+  describePenumbraBlur(d);
+  describeLayerLookup(d, render::haloOf(d.values()));
   if (d.values().method == Method::Minimum)
     d.read("nearestBlockers", &Ports::nearestBlockers)
         .optional()

@@ -3,23 +3,19 @@
 
 #include <map>
 
-#include "render/layer_lookup.hpp"
+#include "render/layer_widths.hpp"
 #include "render/layered_shadows.hpp"
 #include "render/nearest_blockers.hpp"
+#include "render/penumbra_blur.hpp"
 
 namespace lucerna::passes {
 
 class LayeredTransmittance {
  public:
-  enum class Method { Search, Minimum };
-  struct Params : render::LayerLookupParams {
-    Method method = Method::Search;
-    int search = 5;              // depths along each side, odd
-    int kernel = 11;             // taps along each axis, odd
-    float maximumRadius = 48.f;  // px of the picture
-    float edgeStop = 0.05f;      // m
-    render::LayerResolution resolution = render::LayerResolution::Half;
-  };
+  using Method = render::LayerWidthParams::Method;
+  struct Params : render::LayerLookupParams,
+                  render::LayerWidthParams,
+                  render::PenumbraBlurParams {};
   struct Ports : render::LayerLookupPorts {
     graph::In<render::NearestBlockers> nearestBlockers;
     graph::Out<render::LayeredTransmittance> layeredTransmittance;

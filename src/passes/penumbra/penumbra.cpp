@@ -6,16 +6,7 @@ using gpu::Format;
 
 void Penumbra::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("Penumbra", "Finds how wide penumbrae are, for each layer of screen-space shadows.");
-  d.param("method", &Params::method)
-      .choices({"search", "minimum"})
-      .rebuilds(graph::Rebuild::Ports)
-      .help(
-          "search: by the mean distance of blockers around a point; minimum: by that of the "
-          "nearest "
-          "to the light, from NearestBlockers.");
-  d.param("search", &Params::search)
-      .range(3, 47)
-      .help("search: depths along each side of a light's map that are read, odd.");
+  describeWidths(d);
   d.param("resolution", &Params::resolution)
       .choices({"half", "full"})
       .help("Of the picture: half takes every second pixel along each axis.");

@@ -10,10 +10,8 @@ namespace lucerna::passes {
 
 class Penumbra {
  public:
-  enum class Method { Search, Minimum };
-  struct Params : render::LayerLookupParams {
-    Method method = Method::Search;
-    int search = 5;  // depths along each side, odd
+  using Method = render::LayerWidthParams::Method;
+  struct Params : render::LayerLookupParams, render::LayerWidthParams {
     render::LayerResolution resolution = render::LayerResolution::Half;
     render::LayeredVariant variant = render::LayeredVariant::Mended;
   };

@@ -1,7 +1,5 @@
 #include "passes/shadow_blur/shadow_blur.hpp"
 
-#include <cmath>
-
 namespace lucerna::passes {
 
 using gpu::Format;
@@ -16,24 +14,7 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
           "Where widths come from. stored: from Penumbra; sampled: both axes look them up in "
           "NearestBlockers themselves, as Penumbra does with method=minimum, and no Penumbra is "
           "needed; bias and normalBias count there only.");
-  d.param("kernel", &Params::kernel)
-      .range(3, 47)
-      .help("Taps along each of two axes, odd; they spread over the widest penumbra of a pixel.");
-  d.param("maximumRadius", &Params::maximumRadius)
-      .range(2, 256)
-      .unit("px")
-      .rebuilds(graph::Rebuild::Ports)
-      .help("Along each axis nothing farther away counts: larger penumbrae are cut off.");
-  d.param("edgeStop", &Params::edgeStop)
-      .range(0.0001, 100)
-      .unit("m")
-      .help(
-          "What is farther off a pixel's tangent plane than this, and than a pixel is wide there, "
-          "is "
-          "another surface and does not count.");
-  d.param("resolution", &Params::resolution)
-      .choices({"half", "full"})
-      .help("Of the picture: half stands for two pixels along each axis, of which it gathers all.");
+  describePenumbraBlur(d);
   d.param("variant", &Params::variant)
       .choices({"mended", "published"})
       .help(
@@ -41,8 +22,7 @@ void ShadowBlur::describe(graph::PassInfo<Params, Ports>& d) {
           "ellipses and with differences of stored depth up to 0.03 in place of edgeStop; "
           "sampled widths are those of Penumbra's published variant.");
   describeLookupBias(d);
-  // Both axes reach along x, as the second is askew.
-  const int halo = 2 * static_cast<int>(std::ceil(d.values().maximumRadius)) + 4;
+  const int halo = render::haloOf(d.values());
   d.read("view", render::lookupPort<Ports>(&Ports::view))
       .help("The view that the G-buffer was drawn from.");
   if (d.values().penumbrae == From::Stored) {

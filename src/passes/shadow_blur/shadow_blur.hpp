@@ -6,18 +6,15 @@
 
 #include "render/layer_widths.hpp"
 #include "render/layered_shadows.hpp"
+#include "render/penumbra_blur.hpp"
 
 namespace lucerna::passes {
 
 class ShadowBlur {
  public:
   enum class From { Stored, Sampled };  // of penumbrae
-  struct Params : render::LayerLookupParams {
+  struct Params : render::LayerLookupParams, render::PenumbraBlurParams {
     From penumbrae = From::Stored;
-    int kernel = 11;             // taps along each axis, odd
-    float maximumRadius = 48.f;  // px of the picture
-    float edgeStop = 0.05f;      // m
-    render::LayerResolution resolution = render::LayerResolution::Half;
     render::LayeredVariant variant = render::LayeredVariant::Mended;
   };
   struct Ports : render::LayerWidthPorts {  // but for view, depth and normal: of sampled

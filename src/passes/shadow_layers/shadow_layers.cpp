@@ -24,9 +24,8 @@ void ShadowLayers::describe(graph::PassInfo<Params, Ports>& d) {
       .rebuilds(graph::Rebuild::Ports)
       .help(
           "Which lights may not share a layer. spheres: those whose lit volumes may meet, by "
-          "spheres "
-          "around them (system C); tiles: those that both reach what is seen in some tile, or in "
-          "tiles near each other.");
+          "spheres around them (system C); tiles: those that both reach what is seen in some "
+          "tile, or in tiles near each other.");
   d.param("apart", &Params::apart)
       .range(0, 512)
       .unit("px")
@@ -59,9 +58,13 @@ void ShadowLayers::warnOf(const std::vector<std::string>& beyond, int layers) {
   std::string names;
   for (const std::string& name : beyond)
     if (warned_.insert(name).second) names += (names.empty() ? "'" : ", '") + name + "'";
-  if (!names.empty())
-    log::warning("ShadowLayers: beyond {} layers {} have hard shadows{}", layers, names,
-                 layers < kMostLayers ? "; layers allows more" : "");
+  if (names.empty()) return;
+  const std::string more =
+      layers < kMostLayers
+          ? fmt::format("raise ShadowLayers.layers (now {}, at most {})", layers, kMostLayers)
+          : "there are no more";
+  log::warning("ShadowLayers: {} lights need more than {} {}, and have hard shadows; {}: {}",
+               beyond.size(), layers, layers == 1 ? "layer" : "layers", more, names);
 }
 
 OverlapGraph ShadowLayers::overlaps(gpu::Device& device, const Params& params, const Ports& ports,

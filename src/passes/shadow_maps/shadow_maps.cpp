@@ -60,8 +60,9 @@ void ShadowMaps::describe(graph::PassInfo<Params, Ports>& d) {
 
 void ShadowMaps::warnOfLamps(int withMaps, int leftOut, const char* remedy) {
   if (leftOut > mostLeftOut_)
-    log::warning("ShadowMaps: beside {} lamps, {} in sight throw no shadow; {} allows more",
-                 withMaps, leftOut, remedy);
+    log::warning(
+        "ShadowMaps: beside {} lamps, {} in sight throw no shadow; ShadowMaps.{} allows more",
+        withMaps, leftOut, remedy);
   mostLeftOut_ = std::max(mostLeftOut_, leftOut);
 }
 

@@ -1,7 +1,9 @@
 #include "passes/tiled_lighting/tiled_lighting.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "core/log.hpp"
 #include "render/layer_lookup.hpp"
 
 namespace lucerna::passes {
@@ -31,11 +33,9 @@ void describeShadows(graph::PassInfo<TiledLighting::Params, TiledLighting::Ports
   d.param("comparison", &Params::comparison)
       .choices({"nearest", "filtered", "plane"})
       .help(
-          "nearest: with one depth; filtered: the hardware's mean of those with the four around "
-          "the "
-          "point; plane: the same mean, each compared where it lies on the surface's plane, so "
-          "that "
-          "a smaller normalBias does, the factor being the same.");
+          "nearest: with one depth; filtered: the hardware's mean of those with the four around; "
+          "plane: that mean, each compared where it lies on the surface's plane, which a third of "
+          "the offset keeps from shadowing itself.");
   render::describeShadowBias(d, &Params::bias, &Params::normalBias);
 }
 
@@ -59,6 +59,12 @@ float reachOf(TiledLighting::Comparison comparison) {
       return render::kPlaneReach;
   }
   return render::kFilteredReach;
+}
+
+// Lights throw shadows, and some row that would soften them is missing or disabled.
+bool lacksLayers(const TiledLighting::Ports& ports) {
+  return ports.shadowMaps && !ports.shadowMaps->maps.empty() && !hasLayers(ports) &&
+         !(ports.shadowLayers && ports.shadowLayers->count == 0);
 }
 
 bool hasPanesInLayers(const TiledLighting::Ports& ports) {
@@ -225,6 +231,11 @@ void TiledLighting::draw(gpu::Rendering& rendering, const char* shader, const Pa
 }
 
 void TiledLighting::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
+  if (params.shadows == Shadows::Layered && lacksLayers(ports) && !std::exchange(warned_, true))
+    log::warning(
+        "TiledLighting: shadows=layered finds no soft shadows, so that all are hard; before it, in "
+        "this order: ShadowLayers, ShadowMask, (ShadowTiles,) NearestBlockers, Penumbra, "
+        "ShadowBlur");
   gpu::Rendering rendering = begin(context.device, params, ports);
   const auto usesOwnShader = [](const scene::Material& material) { return material.shader.used(); };
   if (ports.shadowMaps && !ports.color.isNew() &&

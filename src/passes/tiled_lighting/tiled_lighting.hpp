@@ -57,6 +57,7 @@ class TiledLighting {
 
   gpu::Device& device_;
   std::map<gpu::ProgramDesc, gpu::ProgramPtr> programs_;
+  bool warned_ = false;
 };
 
 }  // namespace lucerna::passes
