@@ -1,4 +1,4 @@
-// lucerna pipeline check|print|graph
+// lucerna pipeline list|check|print|graph
 
 #include <algorithm>
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include "core/log.hpp"
 #include "graph/schedule.hpp"
 #include "render_flags.hpp"
+#include "script/shipped.hpp"
 
 namespace lucerna::cli {
 namespace {
@@ -103,10 +104,25 @@ Result<int> graph(const Options& options, bool json) {
   return 0;
 }
 
+// The names that --pipeline takes, each with the first line of its comment.
+Result<int> list(bool json) {
+  Json names = Json::array();
+  for (const script::EmbeddedText& pipeline : script::shippedPipelines()) {
+    const std::string name = std::filesystem::path(pipeline.name).stem().string();
+    names.push_back(name);
+    std::string_view comment = pipeline.text.substr(0, pipeline.text.find('\n'));
+    if (comment.starts_with("// ")) comment.remove_prefix(3);
+    if (!json) printText(fmt::format("{:<18}{}\n", name, comment));
+  }
+  if (json) printJson({{"pipelines", names}});
+  return 0;
+}
+
 }  // namespace
 
 void addPipeline(CommandLine& line) {
-  CLI::App* group = line.app.add_subcommand("pipeline", "check, print or draw a pipeline");
+  CLI::App* group = line.app.add_subcommand("pipeline", "list, check, print or draw pipelines");
+  addCommand(line, *group, "list", "the shipped pipelines", [&line] { return list(line.talk.json); });
   auto options = std::make_shared<Options>();
   const auto add = [&](const char* name, const char* help,
                        Result<int> (*run)(const Options&, bool)) {

@@ -356,7 +356,7 @@ class CliTest(unittest.TestCase):
 
     def test_json_everywhere(self):
         for arguments in (["info", ATRIUM], ["doctor"], ["pass", "list"], ["pass", "show", "ToneMap"],
-                          ["pipeline", "check", "deferred"], ["pipeline", "print", "forward"],
+                          ["pipeline", "list"], ["pipeline", "check", "deferred"], ["pipeline", "print", "forward"],
                           ["pipeline", "graph", "deferred", "-o", "d.svg"]):
             run = self.lucerna(*arguments, "--json")
             self.assert_ok(run)
@@ -369,8 +369,13 @@ class CliTest(unittest.TestCase):
         self.assertEqual(json.loads(failed.stdout)["error"]["code"], 3)
 
     def test_shipped_pipelines_are_valid_and_render(self):
-        for name in ("deferred", "forward", "gbuffer", "bvh"):
+        listed = self.lucerna("pipeline", "list", "--json")
+        self.assert_ok(listed)
+        names = json.loads(listed.stdout)["pipelines"]
+        self.assertIn("layered", names)
+        for name in names:
             self.assert_ok(self.lucerna("pipeline", "check", name))
+        for name in ("deferred", "forward", "gbuffer", "bvh"):
             self.assert_ok(self.lucerna("render", ATRIUM, *SMALL, "--pipeline", name, "-o", f"{name}.png"))
 
     def test_layered_shadows_are_the_same_bits_with_any_number_of_threads(self):

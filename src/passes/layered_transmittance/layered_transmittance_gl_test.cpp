@@ -128,7 +128,7 @@ TEST_P(PanesInLayers, HavePenumbraeOfTheRightWidth) {
 // Panes that overlap before lamps that do, of all kinds: each lamp has the colours it has alone.
 TEST_P(PanesInLayers, OfLampsTogetherAreThoseOfEachAlone) {
   constexpr uvec2 kPicture{96, 64};
-  constexpr std::size_t kLamps = 9;
+  constexpr std::size_t kLamps = 18;  // more than are looked up at once
   scene::Scene scene = wallScene();
   addPane(scene, kRedGlass, {-0.3f, 0, -4}, {0.9f, 1.2f});
   addPane(scene, kGreenGlass, {0, 0.3f, -3.5f}, {0.8f, 0.4f});
