@@ -245,8 +245,9 @@ scene::Scene lampsOfAllSizes() {
   testing::addWall(scene, kWall);
   testing::addBox(scene, {0, 0, -4}, vec3(0.7f));
   testing::addBox(scene, {0.6f, 0.4f, -5}, vec3(0.3f));
+  constexpr int kMiddle = kLamps / 2;
   for (int i = 0; i < kLamps; ++i) {
-    addLamp(scene, {0.4f * static_cast<float>(i - kLamps / 2), 0.8f, -1.f}, {0, 0, -kWall});
+    addLamp(scene, {0.4f * static_cast<float>(i - kMiddle), 0.8f, -1.f}, {0, 0, -kWall});
     scene.lights.back().radius = 0.05f * static_cast<float>(i + 1);
     scene.lights.back().intensity = 5.f;
   }
@@ -291,7 +292,7 @@ TEST(ShadowBlur, OfExponentialValuesOfManyLampsIsThatOfBits) {
   testing::expectNoDebugMessages();
 }
 
-// What is sampled is what Penumbra stores, but for the rounding of half floats.
+// What is sampled is what Penumbra stores, but for the rounding of half floats, which may move a tap.
 TEST(ShadowBlur, OfSampledPenumbraeIsThatOfStoredOnes) {
   const scene::Scene scene = lampsOfAllSizes();
   const auto picture = [&](const graph::Pipeline& pipeline) {
@@ -313,7 +314,7 @@ TEST(ShadowBlur, OfSampledPenumbraeIsThatOfStoredOnes) {
         pipeline.passes.insert(
             std::ranges::find(pipeline.passes, "ShadowBlur", &graph::PassRow::type), penumbra);
         set(pipeline, "ShadowBlur", "penumbrae", std::string("stored"));
-        EXPECT_LT(largestDifference(picture(pipeline), sampled), 1.f / 255.f);
+        EXPECT_LT(largestDifference(picture(pipeline), sampled), 2.f / 255.f);
         EXPECT_GT(largestDifference(hard, sampled), 0.03f);
       }
   testing::expectNoDebugMessages();

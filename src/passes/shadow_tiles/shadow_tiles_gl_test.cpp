@@ -22,19 +22,17 @@ struct Picture {
 };
 Picture randomPicture(Random& random) {
   Picture picture;
-  auto bits = picture.mask.as<std::uint32_t>();
-  std::ranges::fill(bits, 0u);
+  std::ranges::fill(picture.mask.as<std::uint32_t>(), 0u);
   std::ranges::fill(picture.depth.as<float>(), 0.5f);
   for (int layer = 0; layer < 32; ++layer) {
     const ivec2 from(random.uniform(-40.f, 140.f), random.uniform(-40.f, 60.f));
     const ivec2 to = from + ivec2(random.uniform(1.f, 120.f), random.uniform(1.f, 120.f));
     for (int y = std::max(from.y, 0); y < std::min(to.y, kSize.y); ++y)
       for (int x = std::max(from.x, 0); x < std::min(to.x, kSize.x); ++x)
-        bits[static_cast<std::size_t>(y * kSize.x + x)] |= 1u << layer;
+        *picture.mask.pixel<std::uint32_t>(x, y) |= 1u << layer;
   }
   for (int y = 20; y < kSize.y; ++y)
-    for (int x = 70; x < 100; ++x)
-      picture.depth.as<float>()[static_cast<std::size_t>(y * kSize.x + x)] = 0.f;
+    for (int x = 70; x < 100; ++x) *picture.depth.pixel<float>(x, y) = 0.f;
   return picture;
 }
 
