@@ -26,8 +26,11 @@ int faultsOf(const std::vector<Square>& squares, int side, int layers) {
     for (int y = square.corner.y; y < square.corner.y + square.side; ++y)
       for (int x = square.corner.x; x < square.corner.x + square.side; ++x) {
         const bool inside = x >= 0 && y >= 0 && x < side && y < side && square.layer < layers;
-        faults += !inside ||
-                  covered[static_cast<std::size_t>((square.layer * side + y) * side + x)]++ > 0;
+        faults +=
+            !inside ||
+            covered[(static_cast<std::size_t>(square.layer * side) + static_cast<std::size_t>(y)) *
+                        static_cast<std::size_t>(side) +
+                    static_cast<std::size_t>(x)]++ > 0;
       }
   return faults;
 }
