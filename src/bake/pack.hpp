@@ -1,0 +1,39 @@
+// Rectangles into square maps, by a skyline: Jylänki, "A Thousand Ways to Pack the Bin", 2010,
+// section 2.3, with the lowest top first and the least waste below it second.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/math/math.hpp"
+#include "core/result.hpp"
+
+namespace lucerna::bake {
+
+struct PackSettings {
+  int side = 2048;     // texels of a map
+  int gap = 2;         // texels between rectangles, and none to a map's edge
+  int mostMaps = 256;  // more are an error
+};
+
+struct Place {
+  int map = 0;
+  ivec2 corner{0};      // the least texel
+  bool turned = false;  // by a right angle: width and height have changed places
+};
+
+struct Packing {
+  std::vector<Place> places;  // of each rectangle
+  int maps = 0;
+};
+
+// sizes: width and height in texels, at least 1. The same input gives the same output. Errors
+// (ErrorKind::Input): a rectangle that is larger than a map, or more maps than are allowed; the
+// message says by which factor of texel density all would fit.
+Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings);
+
+// Share of the texels of all maps but the last that rectangles cover, without their gaps; of the
+// only map, if there is one alone. 0 of nothing.
+double occupancy(const Packing& packing, std::span<const ivec2> sizes, int side);
+
+}  // namespace lucerna::bake
