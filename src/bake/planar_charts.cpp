@@ -1,0 +1,228 @@
+#include "bake/planar_charts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <compare>
+#include <limits>
+#include <numeric>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace lucerna::bake {
+namespace {
+
+struct Triangle {
+  std::array<std::uint32_t, 3> corners{};  // as weld() numbers them
+  vec3 normal{0.f};                        // unit; 0 of degenerate ones
+  float area = 0.f;
+};
+
+// A number for each place, in the order of vertices.
+std::vector<std::uint32_t> weld(std::span<const vec3> positions) {
+  std::vector<std::uint32_t> order(positions.size()), numbers(positions.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto place = [&](std::uint32_t i) {
+    const vec3 p = positions[i] + 0.f;  // -0 is 0
+    return std::tuple(p.x, p.y, p.z);
+  };
+  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
+    return std::tuple_cat(place(a), std::tuple(a)) < std::tuple_cat(place(b), std::tuple(b));
+  });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    numbers[order[i]] =
+        i > 0 && place(order[i]) == place(order[i - 1]) ? numbers[order[i - 1]] : order[i];
+  return numbers;
+}
+
+bool isFinite(vec3 p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+Triangle triangleOf(const std::array<vec3, 3>& p) {
+  Triangle triangle;
+  if (!std::ranges::all_of(p, isFinite)) return triangle;
+  const glm::dvec3 a(p[0]), b(p[1]), c(p[2]);
+  const glm::dvec3 cross = glm::cross(b - a, c - a);
+  const double twice = glm::length(cross);
+  // Its height is lost in the rounding of its corners.
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  const double size = std::max({glm::length(a), glm::length(b), glm::length(c)});
+  if (!(twice > longest * size * 2 * std::numeric_limits<float>::epsilon())) return triangle;
+  triangle.normal = vec3(cross / twice);
+  triangle.area = static_cast<float>(0.5 * twice);
+  return triangle;
+}
+
+struct Edge {
+  std::uint32_t low, high, triangle;
+  auto operator<=>(const Edge&) const = default;
+};
+
+// What grows charts over a mesh.
+class Grower {
+ public:
+  Grower(std::span<const vec3> positions, std::span<const std::uint32_t> indices,
+         const PlanarSettings& settings)
+      : positions_(positions.begin(), positions.end()),
+        settings_(settings),
+        chartOf_(indices.size() / 3, kNone) {
+    for (vec3& position : positions_)  // else they have no order; no triangle that counts has them
+      if (!isFinite(position)) position = vec3(0.f);
+    const std::vector<std::uint32_t> numbers = weld(positions_);
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+      Triangle triangle =
+          triangleOf({positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]});
+      triangle.corners = {numbers[indices[i]], numbers[indices[i + 1]], numbers[indices[i + 2]]};
+      triangles_.push_back(triangle);
+      const auto number = static_cast<std::uint32_t>(i / 3);
+      if (triangle.area > 0.f)
+        for (int k = 0; k < 3; ++k) edges_.push_back(edgeOf(number, k));
+    }
+    std::ranges::sort(edges_);
+  }
+
+  PlanarCharts grow() {
+    PlanarCharts result;
+    std::vector<std::uint32_t> seeds(triangles_.size());
+    std::iota(seeds.begin(), seeds.end(), 0u);
+    std::ranges::stable_sort(seeds, [&](std::uint32_t a, std::uint32_t b) {
+      return triangles_[a].area > triangles_[b].area;
+    });
+    for (const std::uint32_t seed : seeds)
+      if (triangles_[seed].area <= 0.f)
+        result.degenerate.push_back(seed);
+      else if (chartOf_[seed] == kNone)
+        result.charts.push_back(chartFrom(seed, static_cast<std::uint32_t>(result.charts.size())));
+    return result;
+  }
+
+ private:
+  static constexpr std::uint32_t kNone = 0xffffffffu;
+  using Side = std::pair<std::uint32_t, std::uint32_t>;  // from a corner to the next
+
+  Edge edgeOf(std::uint32_t triangle, int side) const {
+    const auto& corners = triangles_[triangle].corners;
+    const std::uint32_t a = corners[static_cast<std::size_t>(side)],
+                        b = corners[static_cast<std::size_t>(side + 1) % 3];
+    return {std::min(a, b), std::max(a, b), triangle};
+  }
+
+  PlanarChart chartFrom(std::uint32_t seed, std::uint32_t number) {
+    PlanarChart chart;
+    chart.normal = triangles_[seed].normal;
+    taken_.clear();
+    take(chart, number, seed);
+    const vec3 onPlane = positions_[triangles_[seed].corners[0]];
+    for (std::size_t next = 0; next < chart.triangles.size(); ++next)
+      for (int side = 0; side < 3; ++side) {
+        const Edge edge = edgeOf(chart.triangles[next], side);
+        const auto first = std::ranges::lower_bound(edges_, Edge{edge.low, edge.high, 0});
+        for (auto other = first;
+             other != edges_.end() && other->low == edge.low && other->high == edge.high; ++other)
+          if (chartOf_[other->triangle] == kNone && liesIn(chart, onPlane, other->triangle))
+            take(chart, number, other->triangle);
+      }
+    std::ranges::sort(chart.triangles);
+    layFlat(chart);
+    return chart;
+  }
+
+  bool liesIn(const PlanarChart& chart, vec3 onPlane, std::uint32_t triangle) const {
+    const Triangle& t = triangles_[triangle];
+    return glm::dot(t.normal, chart.normal) >= settings_.cosNormal &&
+           std::ranges::all_of(t.corners, [&](std::uint32_t corner) {
+             return std::abs(glm::dot(positions_[corner] - onPlane, chart.normal)) <=
+                    settings_.offPlane;
+           });
+  }
+
+  // Takes a triangle into the chart that is grown. Of its sides, which all run counter-clockwise,
+  // none may run as one of the chart's does: there it would lie, like a copy, on what is there
+  // already.
+  void take(PlanarChart& chart, std::uint32_t number, std::uint32_t triangle) {
+    const auto& corners = triangles_[triangle].corners;
+    const std::array<Side, 3> sides{
+        {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}}};
+    if (std::ranges::any_of(sides, [&](const Side& side) { return taken_.contains(side); })) return;
+    taken_.insert(sides.begin(), sides.end());
+    chartOf_[triangle] = number;
+    chart.triangles.push_back(triangle);
+  }
+
+  // In the smallest rectangle around it; one of its sides lies on an edge of the convex hull.
+  void layFlat(PlanarChart& chart) const;
+
+  std::vector<vec3> positions_;
+  PlanarSettings settings_;
+  std::vector<Triangle> triangles_;
+  std::vector<Edge> edges_;
+  std::vector<std::uint32_t> chartOf_;
+  std::set<Side> taken_;  // of the chart that is grown
+};
+
+double crossOf(glm::dvec2 a, glm::dvec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// Counter-clockwise, without points on its sides (Andrew, "Another Efficient Algorithm for Convex
+// Hulls in Two Dimensions", 1979).
+std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
+  std::ranges::sort(points, {}, [](glm::dvec2 p) { return std::pair(p.x, p.y); });
+  std::vector<glm::dvec2> hull;
+  const auto add = [&](glm::dvec2 point, std::size_t least) {
+    while (hull.size() >= least + 2 &&
+           crossOf(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
+      hull.pop_back();
+    hull.push_back(point);
+  };
+  for (const glm::dvec2 point : points) add(point, 0);
+  const std::size_t lower = hull.size() - 1;
+  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
+  hull.pop_back();  // the first once more
+  return hull;
+}
+
+void Grower::layFlat(PlanarChart& chart) const {
+  const glm::dvec3 normal(chart.normal),
+      base(positions_[triangles_[chart.triangles[0]].corners[0]]);
+  const glm::dvec3 u0 =
+      glm::normalize(std::abs(normal.y) < 0.8 ? glm::dvec3(normal.z, 0, -normal.x)
+                                              : glm::dvec3(0, -normal.z, normal.y));
+  const glm::dvec3 v0 = glm::cross(normal, u0);
+  std::vector<glm::dvec2> points;
+  for (const std::uint32_t triangle : chart.triangles)
+    for (const std::uint32_t corner : triangles_[triangle].corners) {
+      const glm::dvec3 p = glm::dvec3(positions_[corner]) - base;
+      points.emplace_back(glm::dot(p, u0), glm::dot(p, v0));
+    }
+  const std::vector<glm::dvec2> hull = convexHull(std::move(points));
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const glm::dvec2 along = glm::normalize(hull[(i + 1) % hull.size()] - hull[i]);
+    const glm::dvec2 across(-along.y, along.x);
+    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
+    for (const glm::dvec2 point : hull) {
+      const glm::dvec2 at(glm::dot(point, along), glm::dot(point, across));
+      low = glm::min(low, at), high = glm::max(high, at);
+    }
+    const glm::dvec2 size = high - low;
+    if (size.x * size.y >= least * (1 - 1e-9)) continue;  // rounding does not choose
+    least = size.x * size.y;
+    const glm::dvec2 corner = low.x * along + low.y * across;
+    chart.alongU = vec3(along.x * u0 + along.y * v0);
+    chart.alongV = vec3(across.x * u0 + across.y * v0);
+    chart.origin = vec3(base + corner.x * u0 + corner.y * v0);
+    chart.size = vec2(size);
+  }
+}
+
+}  // namespace
+
+PlanarCharts planarCharts(std::span<const vec3> positions, std::span<const std::uint32_t> indices,
+                          const PlanarSettings& settings) {
+  return Grower(positions, indices, settings).grow();
+}
+
+}  // namespace lucerna::bake
