@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "bake/triangle.hpp"
+
 namespace lucerna::bake {
 namespace {
 
@@ -36,25 +38,6 @@ std::vector<std::uint32_t> weld(std::span<const vec3> positions) {
   return numbers;
 }
 
-bool isFinite(vec3 p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-Triangle triangleOf(const std::array<vec3, 3>& p) {
-  Triangle triangle;
-  if (!std::ranges::all_of(p, isFinite)) return triangle;
-  const glm::dvec3 a(p[0]), b(p[1]), c(p[2]);
-  const glm::dvec3 cross = glm::cross(b - a, c - a);
-  const double twice = glm::length(cross);
-  // Its height is lost in the rounding of its corners.
-  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
-  const double size = std::max({glm::length(a), glm::length(b), glm::length(c)});
-  if (!(twice > longest * size * 2 * std::numeric_limits<float>::epsilon())) return triangle;
-  triangle.normal = vec3(cross / twice);
-  triangle.area = static_cast<float>(0.5 * twice);
-  return triangle;
-}
-
 struct Edge {
   std::uint32_t low, high, triangle;
   auto operator<=>(const Edge&) const = default;
@@ -72,9 +55,12 @@ class Grower {
       if (!isFinite(position)) position = vec3(0.f);
     const std::vector<std::uint32_t> numbers = weld(positions_);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
-      Triangle triangle =
-          triangleOf({positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]});
-      triangle.corners = {numbers[indices[i]], numbers[indices[i + 1]], numbers[indices[i + 2]]};
+      const auto [normal, area] =
+          shapeOf({positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]});
+      const Triangle triangle{
+          .corners = {numbers[indices[i]], numbers[indices[i + 1]], numbers[indices[i + 2]]},
+          .normal = normal,
+          .area = area};
       triangles_.push_back(triangle);
       const auto number = static_cast<std::uint32_t>(i / 3);
       if (triangle.area > 0.f)
