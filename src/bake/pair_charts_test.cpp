@@ -6,28 +6,18 @@
 #include <cmath>
 #include <set>
 
+#include "bake/triangle_soup.hpp"
 #include "core/random.hpp"
 
 namespace lucerna::bake {
 namespace {
-
-struct Soup {
-  std::vector<vec3> positions;
-  std::vector<std::uint32_t> indices;
-  void add(vec3 a, vec3 b, vec3 c) {
-    for (const vec3 p : {a, b, c}) {
-      indices.push_back(static_cast<std::uint32_t>(positions.size()));
-      positions.push_back(p);
-    }
-  }
-};
 
 double crossOf(vec2 a, vec2 b) {
   return static_cast<double>(a.x) * b.y - static_cast<double>(a.y) * b.x;
 }
 
 // A triangle fills its half of the rectangle, and its legs are as long as it says.
-void expectHalf(const Soup& soup, const PairChart& chart, std::uint32_t triangle,
+void expectHalf(const TriangleSoup& soup, const PairChart& chart, std::uint32_t triangle,
                 const std::array<vec2, 3>& corners, float tolerance) {
   EXPECT_NEAR(std::abs(crossOf(corners[1] - corners[0], corners[2] - corners[0])), 1, 1e-6);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -42,7 +32,7 @@ void expectHalf(const Soup& soup, const PairChart& chart, std::uint32_t triangle
 }
 
 TEST(PairCharts, JoinTheHalvesOfRectangles) {
-  Soup soup;
+  TriangleSoup soup;
   soup.add({0, 0, 0}, {3, 0, 0}, {3, 2, 0});
   soup.add({5, 5, 5}, {5, 5, 6}, {5, 9, 5});  // legs of 1 and 4
   soup.add({0, 0, 0}, {3, 2, 0}, {0, 2, 0});
@@ -61,7 +51,7 @@ TEST(PairCharts, JoinTheHalvesOfRectangles) {
 
 TEST(PairCharts, HoldEachTriangleOnce) {
   Random random(3);
-  Soup soup;
+  TriangleSoup soup;
   const auto place = [&] {
     return 4.f * vec3(random.uniform(), random.uniform(), random.uniform());
   };

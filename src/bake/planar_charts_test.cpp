@@ -8,20 +8,15 @@
 #include <limits>
 #include <set>
 
-#include "core/random.hpp"
+#include "bake/triangle_soup.hpp"
 
 namespace lucerna::bake {
 namespace {
 
-struct Mesh {
-  std::vector<vec3> positions;
-  std::vector<std::uint32_t> indices;
-
-  // Two triangles with corners of their own.
+struct Mesh : TriangleSoup {
   void addQuad(vec3 corner, vec3 u, vec3 v) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    for (const vec3 p : {corner, corner + u, corner + u + v, corner + v}) positions.push_back(p);
-    for (const std::uint32_t i : {0u, 1u, 2u, 0u, 2u, 3u}) indices.push_back(first + i);
+    add(corner, corner + u, corner + u + v);
+    add(corner, corner + u + v, corner + v);
   }
   void addBox(vec3 low, vec3 size) {
     const vec3 x(size.x, 0, 0), y(0, size.y, 0), z(0, 0, size.z), high = low + size;
@@ -140,17 +135,11 @@ TEST(PlanarCharts, NameDegenerateTriangles) {
   mesh.addQuad({100, 0, 0}, {1, 0, 0}, {0, 1, 0});
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               far = std::numeric_limits<float>::infinity();
-  const auto add = [&](vec3 a, vec3 b, vec3 c) {
-    for (const vec3 p : {a, b, c}) {
-      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
-      mesh.positions.push_back(p);
-    }
-  };
-  add({0, 0, 0}, {1, 0, 0}, {2, 0, 0});
-  add({0, 0, 0}, {0, 0, 0}, {1, 0, 0});
-  add({0, 0, nan}, {1, 0, 0}, {0, 1, 0});
-  add({far, 0, 0}, {1, 0, 0}, {0, 1, 0});
-  add({100, 0, 0}, {101, 0, 0}, {100.5f, 1e-7f, 0});  // below what a float tells there
+  mesh.add({0, 0, 0}, {1, 0, 0}, {2, 0, 0});
+  mesh.add({0, 0, 0}, {0, 0, 0}, {1, 0, 0});
+  mesh.add({0, 0, nan}, {1, 0, 0}, {0, 1, 0});
+  mesh.add({far, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  mesh.add({100, 0, 0}, {101, 0, 0}, {100.5f, 1e-7f, 0});  // below what a float tells there
   mesh.addQuad({0, 0, 0}, {1, 0, 0}, {0, 2, 0});
   const PlanarCharts found = mesh.charts();
   expectWhole(mesh, found);

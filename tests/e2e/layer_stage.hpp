@@ -7,13 +7,6 @@
 
 namespace lucerna::testing {
 
-inline gpu::Texture uploaded(const Image& image, gpu::Format format) {
-  gpu::Texture texture = device().createTexture(
-      {.format = format, .width = image.width(), .height = image.height()}, "copy");
-  device().upload(texture, image);
-  return texture;
-}
-
 // The scene's G-buffer, the maps of its lights and their layers.
 class LayerStage {
  public:

@@ -1,5 +1,9 @@
 #include "support/testing.hpp"
 
+#include <cmath>
+
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -140,6 +144,36 @@ vec3 colorAt(const Image& image, int x, int y) {
   const Image linear = converted(image, ComponentType::F32, 3);
   const float* pixel = linear.pixel<float>(x, y);
   return {pixel[0], pixel[1], pixel[2]};
+}
+
+gpu::Texture uploaded(const Image& image, gpu::Format format) {
+  gpu::Texture texture = device().createTexture(
+      {.format = format, .width = image.width(), .height = image.height()}, "uploaded");
+  device().upload(texture, image);
+  return texture;
+}
+
+void expectSumOfEachLightAlone(scene::Scene& scene, const std::function<Image()>& picture) {
+  const Image together = picture();
+  std::vector<double> sum(together.as<float>().size());
+  for (scene::Light& one : scene.lights) {
+    for (scene::Light& light : scene.lights) light.on = &light == &one;
+    const Image alone = picture();
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += alone.as<float>()[i];
+  }
+  for (scene::Light& light : scene.lights) light.on = true;
+  double brightest = 0, worst = 0;
+  for (std::size_t i = 0; i < sum.size(); ++i) {
+    brightest = std::max(brightest, sum[i]);
+    worst = std::max(worst, std::abs(sum[i] - together.as<float>()[i]));
+  }
+  EXPECT_GT(brightest, 0.5);
+  EXPECT_LT(worst, 2. / 255. * brightest);
+}
+
+double visibleShareOfDisc(double t) {
+  t = std::clamp(t, -1., 1.);
+  return 0.5 + (t * std::sqrt(1. - t * t) + std::asin(t)) / static_cast<double>(kPi);
 }
 
 Image asFloatRgb(const Image& image) {

@@ -1,6 +1,7 @@
 // What GL tests share: one device for the program, and pictures of scenes through pipelines.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -69,11 +70,20 @@ Image pictureOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec
 Image valueOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec2 size,
               const std::string& kept);
 
+gpu::Texture uploaded(const Image& image, gpu::Format format);
+
 // Linear radiance in the middle of the picture, from a half-float colour image.
 vec3 colorAt(const Image& image, int x, int y);
 inline vec3 centerOf(const Image& image) {
   return colorAt(image, image.width() / 2, image.height() / 2);
 }
+
+// Light adds up: the picture (of F32) with all of the scene's lights on is, within two steps of 255
+// of its brightest value, the sum of those with each alone. All are on before and after.
+void expectSumOfEachLightAlone(scene::Scene& scene, const std::function<Image()>& picture);
+
+// How much of a disc one sees behind a straight edge. t: place in its penumbra, -1 (nothing) to 1.
+double visibleShareOfDisc(double t);
 
 // Three channels of F32, as the metrics want them.
 Image asFloatRgb(const Image& image);

@@ -73,12 +73,6 @@ Image pictureOf(const scene::Scene& scene, const graph::Pipeline& pipeline, uvec
   return testing::asFloatRgb(testing::valueOf(scene, pipeline, size, "TiledLighting.color"));
 }
 
-// Of a disc behind a straight edge; t: place in the penumbra, -1 to 1.
-double visibleShareOfDisc(double t) {
-  t = std::clamp(t, -1., 1.);
-  return 0.5 + (t * std::sqrt(1. - t * t) + std::asin(t)) / static_cast<double>(kPi);
-}
-
 class PanesInLayers : public ::testing::TestWithParam<Case> {
  protected:
   void TearDown() override { testing::expectNoDebugMessages(); }
@@ -112,7 +106,7 @@ TEST_P(PanesInLayers, HavePenumbraeOfTheRightWidth) {
     int within = 0;
     for (int x = kPicture.x / 2 + 2; x < static_cast<int>(kPicture.x); ++x) {
       const float at = width * ((static_cast<float>(x) + 0.5f) / kPicture.x - 0.5f);
-      const double share = visibleShareOfDisc((at - middle) / radius);
+      const double share = testing::visibleShareOfDisc((at - middle) / radius);
       const int y = kPicture.y / 2;
       for (int c = 0; c < 3; ++c) {
         const double color = found.pixel<float>(x, y)[c] / lit.pixel<float>(x, y)[c];
@@ -145,20 +139,7 @@ TEST_P(PanesInLayers, OfLampsTogetherAreThoseOfEachAlone) {
   graph::Pipeline pipeline = layeredRows(GetParam());
   // Larger ones do not all fit, and those of a lamp alone would differ.
   rowOf(pipeline, "ShadowMaps").params["localSize"] = std::int64_t{512};
-  const Image together = pictureOf(scene, pipeline, kPicture);
-  std::vector<double> sum(together.as<float>().size());
-  for (std::size_t i = 0; i < kLamps; ++i) {
-    for (std::size_t j = 0; j < kLamps; ++j) scene.lights[j].on = i == j;
-    const Image alone = pictureOf(scene, pipeline, kPicture);
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += alone.as<float>()[k];
-  }
-  double brightest = 0, worst = 0;
-  for (std::size_t k = 0; k < sum.size(); ++k) {
-    brightest = std::max(brightest, sum[k]);
-    worst = std::max(worst, std::abs(sum[k] - together.as<float>()[k]));
-  }
-  EXPECT_GT(brightest, 0.5);
-  EXPECT_LT(worst, 2. / 255. * brightest);
+  testing::expectSumOfEachLightAlone(scene, [&] { return pictureOf(scene, pipeline, kPicture); });
 }
 
 // Edges of panes among each other, drawn first to last and last to first.

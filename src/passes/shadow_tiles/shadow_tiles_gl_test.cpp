@@ -36,13 +36,6 @@ Picture randomPicture(Random& random) {
   return picture;
 }
 
-gpu::Texture uploaded(const Image& image, gpu::Format format) {
-  gpu::Texture texture = testing::device().createTexture(
-      {.format = format, .width = image.width(), .height = image.height()}, "picture");
-  testing::device().upload(texture, image);
-  return texture;
-}
-
 gpu::Buffer bufferOf(std::span<const std::uint32_t> words) {
   return testing::device().createBuffer(std::as_bytes(words), "words");
 }
@@ -61,11 +54,39 @@ std::uint32_t partlyBlocked(const Picture& picture, ivec2 tile, int reach) {
   return blocked & lit;
 }
 
+struct Inputs {
+  const render::LightList& lights;
+  const render::TileLights& tiles;
+  const render::ShadowLayers& layers;
+  const gpu::Texture &mask, &depth;
+  const render::ShadowValues* values = nullptr;
+};
+
+// The words of partlyLit.
+std::vector<std::uint32_t> found(const Inputs& inputs, int reach) {
+  render::TileLights partlyLit;
+  passes::ShadowTiles::Ports ports;
+  ports.lights.bind(&inputs.lights);
+  ports.tileLights.bind(&inputs.tiles);
+  ports.shadowLayers.bind(&inputs.layers);
+  ports.shadowMask.bind(&inputs.mask);
+  if (inputs.values) ports.shadowValues.bind(inputs.values);
+  ports.depth.bind(&inputs.depth);
+  ports.partlyLit.bind(&partlyLit);
+  graph::PassContext context{.device = testing::device()};
+  passes::ShadowTiles(testing::device()).execute(context, {.reach = reach}, ports);
+  EXPECT_EQ(partlyLit.tiles, inputs.tiles.tiles);
+  const std::vector<std::byte> bytes = testing::device().download(partlyLit.block);
+  std::vector<std::uint32_t> words(bytes.size() / 4);
+  std::memcpy(words.data(), bytes.data(), words.size() * 4);
+  return words;
+}
+
 TEST(ShadowTiles, NameTheLightsThatAreBlockedInPart) {
   Random random(2);
   const Picture picture = randomPicture(random);
-  const gpu::Texture mask = uploaded(picture.mask, gpu::Format::R32Uint);
-  const gpu::Texture depth = uploaded(picture.depth, gpu::Format::Depth32F);
+  const gpu::Texture mask = testing::uploaded(picture.mask, gpu::Format::R32Uint);
+  const gpu::Texture depth = testing::uploaded(picture.depth, gpu::Format::Depth32F);
 
   render::LightList lights;
   std::vector<std::uint32_t> lightWords(8 + 20 * kLights);
@@ -82,23 +103,9 @@ TEST(ShadowTiles, NameTheLightsThatAreBlockedInPart) {
     tileWords[i] = random.below(0xffffffff) & (i % 2 == 0 ? ~0u : (1u << (kLights - 32)) - 1u);
   tiles.block = bufferOf(tileWords);
 
-  passes::ShadowTiles pass(testing::device());
   for (const int reach : {0, 1, 48}) {
     SCOPED_TRACE(reach);
-    render::TileLights found;
-    passes::ShadowTiles::Ports ports;
-    ports.lights.bind(&lights);
-    ports.tileLights.bind(&tiles);
-    ports.shadowLayers.bind(&layers);
-    ports.shadowMask.bind(&mask);
-    ports.depth.bind(&depth);
-    ports.partlyLit.bind(&found);
-    graph::PassContext context{.device = testing::device()};
-    pass.execute(context, {.reach = reach}, ports);
-    EXPECT_EQ(found.tiles, tiles.tiles);
-    const std::vector<std::byte> bytes = testing::device().download(found.block);
-    std::vector<std::uint32_t> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), words.size() * 4);
+    const auto words = found({lights, tiles, layers, mask, depth}, reach);
     EXPECT_TRUE(std::equal(words.begin(), words.begin() + 4, tileWords.begin()));
     int named = 0, there = 0;
     for (std::uint32_t tile = 0; tile < tiles.tiles; ++tile) {
@@ -125,7 +132,7 @@ TEST(ShadowTiles, NameTheLightsThatAreBlockedInPart) {
 TEST(ShadowTiles, NameTheLightsWhoseValuesAreBetween) {
   Image depthImage(16, 16, 1, ComponentType::F32);
   std::ranges::fill(depthImage.as<float>(), 0.5f);
-  const gpu::Texture depth = uploaded(depthImage, gpu::Format::Depth32F);
+  const gpu::Texture depth = testing::uploaded(depthImage, gpu::Format::Depth32F);
   render::LightList lights;
   std::vector<std::uint32_t> lightWords(8 + 20 * 4);
   lightWords[4] = 4;  // of LightHeader
@@ -148,24 +155,10 @@ TEST(ShadowTiles, NameTheLightsWhoseValuesAreBetween) {
   testing::device().upload(values.bytes, bytes);
   Image none(16, 16, 1, ComponentType::F32);
   std::ranges::fill(none.as<std::uint32_t>(), 8u);  // the mask of those values
-  const gpu::Texture mask = uploaded(none, gpu::Format::R32Uint);
-  passes::ShadowTiles pass(testing::device());
+  const gpu::Texture mask = testing::uploaded(none, gpu::Format::R32Uint);
   for (const bool byValues : {false, true}) {
-    render::TileLights found;
-    passes::ShadowTiles::Ports ports;
-    ports.lights.bind(&lights);
-    ports.tileLights.bind(&tiles);
-    ports.shadowLayers.bind(&layers);
-    ports.shadowMask.bind(&mask);
-    if (byValues) ports.shadowValues.bind(&values);
-    ports.depth.bind(&depth);
-    ports.partlyLit.bind(&found);
-    graph::PassContext context{.device = testing::device()};
-    pass.execute(context, {.reach = 0}, ports);
-    const std::vector<std::byte> words = testing::device().download(found.block);
-    std::uint32_t named = 0;
-    std::memcpy(&named, words.data() + 16, 4);
-    EXPECT_EQ(named, byValues ? 6u : 0u);
+    const auto words = found({lights, tiles, layers, mask, depth, byValues ? &values : nullptr}, 0);
+    EXPECT_EQ(words[4], byValues ? 6u : 0u);
   }
   testing::expectNoDebugMessages();
 }

@@ -75,21 +75,16 @@ TEST_F(TileLights, LeaveOutNoLightThatReachesAPixel) {
   }
 }
 
-gpu::Texture uploaded(const Image& image, gpu::Format format) {
-  gpu::Texture texture = testing::device().createTexture(
-      {.format = format, .width = image.width(), .height = image.height()}, "of the G-buffer");
-  testing::device().upload(texture, image);
-  return texture;
-}
-
 // Bits that are set in all tiles.
 std::size_t bitsIn(const scene::Scene& scene, bool normals = true) {
   testing::SceneRenderer renderer(scene);
   auto output = renderer.render(testing::rows({"Cull", "GBuffer", "TiledLighting"}), kSize,
                                 {"GBuffer.depth", "GBuffer.normal"});
   CHECK(static_cast<bool>(output), "{}", output.error().message);
-  const gpu::Texture depth = uploaded(output->kept.at("GBuffer.depth"), gpu::Format::Depth32F);
-  const gpu::Texture normal = uploaded(output->kept.at("GBuffer.normal"), gpu::Format::Rg16Unorm);
+  const gpu::Texture depth =
+      testing::uploaded(output->kept.at("GBuffer.depth"), gpu::Format::Depth32F);
+  const gpu::Texture normal =
+      testing::uploaded(output->kept.at("GBuffer.normal"), gpu::Format::Rg16Unorm);
   render::TileLights tileLights;
   passes::TileLights::Ports ports;
   ports.view.bind(&renderer.view);

@@ -204,6 +204,13 @@ TEST_P(Shadows, LowReliefThrowsItsShadowByThePlane) {
   EXPECT_FALSE(darkFor("filtered"));
 }
 
+// Of the middle pixel.
+float brightnessOf(const scene::Scene& scene, const std::string& shadows) {
+  graph::Pipeline pipeline = shadowRows();
+  pipeline.passes.back().params["shadows"] = shadows;
+  return testing::centerOf(shadowed(scene, pipeline)).y;
+}
+
 // Where normals for shading see a lamp that the surface itself turns away from, in part or all.
 TEST(Horizon, HidesWhatOfALampIsBehindASurfacesPlane) {
   constexpr float kRadius = 0.2f;
@@ -218,20 +225,13 @@ TEST(Horizon, HidesWhatOfALampIsBehindASurfacesPlane) {
     light.radius = kRadius;
     testing::addLight(scene, light, {3.f, 0, -kWall + height}, {0, 0, -kWall});
     updateTransforms(scene);
-    const auto brightness = [&](const std::string& shadows) {
-      graph::Pipeline pipeline = shadowRows();
-      pipeline.passes.back().params["shadows"] = shadows;
-      return testing::centerOf(shadowed(scene, pipeline)).y;
-    };
-    const float open = brightness("none");
+    const float open = brightnessOf(scene, "none");
     ASSERT_GT(open, 0.01f);
-    EXPECT_FLOAT_EQ(brightness("hard"), height > 0.f ? open : 0.f);
+    EXPECT_FLOAT_EQ(brightnessOf(scene, "hard"), height > 0.f ? open : 0.f);
     // Of a disc that stands on the plane. Where its centre is behind that, maps say that the wall
     // blocks all of it.
-    const float t = std::min(height / kRadius, 1.f);
-    const float share =
-        height < 0.f ? 0.f : 0.5f + (t * std::sqrt(1.f - t * t) + std::asin(t)) / kPi;
-    EXPECT_NEAR(brightness("pcss") / open, share, 0.01f);
+    const double share = height < 0.f ? 0. : testing::visibleShareOfDisc(height / kRadius);
+    EXPECT_NEAR(brightnessOf(scene, "pcss") / open, share, 0.01f);
   }
   testing::expectNoDebugMessages();
 }
@@ -250,15 +250,10 @@ TEST(Horizon, LeavesLightOnWhatIsAPixelWide) {
   for (const float side : {-1.f, 1.f}) {
     scene.nodes[scene.lights.back().node].translation.x = 2.f * side;
     updateTransforms(scene);
-    const auto brightness = [&](const std::string& shadows) {
-      graph::Pipeline pipeline = shadowRows();
-      pipeline.passes.back().params["shadows"] = shadows;
-      return testing::centerOf(shadowed(scene, pipeline)).y;
-    };
-    const float open = brightness("none");
+    const float open = brightnessOf(scene, "none");
     ASSERT_GT(open, 0.01f);
-    EXPECT_FLOAT_EQ(brightness("hard"), open) << side;
-    EXPECT_FLOAT_EQ(brightness("pcss"), open) << side;
+    EXPECT_FLOAT_EQ(brightnessOf(scene, "hard"), open) << side;
+    EXPECT_FLOAT_EQ(brightnessOf(scene, "pcss"), open) << side;
   }
   testing::expectNoDebugMessages();
 }
