@@ -30,6 +30,8 @@ struct Mesh {
   std::vector<vec4> tangents;  // xyz unit, w = handedness +-1
   std::array<std::vector<vec2>, 2> texCoords;  // (0, 0) is the top left texel's corner, as in glTF
   std::vector<u8vec4> colors;                  // linear unorm, multiplies albedo
+  // Where baked light lies: u and v of 0 to 1 as texCoords, and the map's index; -1: nowhere.
+  std::vector<vec3> lightmap;
   std::vector<std::uint32_t> indices;  // three a triangle, counter-clockwise seen from the front
   // What a mesh without triangles is made of: drawn one pixel of the rendering wide and, where it
   // has no normals, unlit. It is no surface: it throws no shadow and stops no ray.

@@ -232,4 +232,17 @@ SurfacePoint MaterialLookup::at(const Spot& spot, vec3 directionW) const {
   return point;
 }
 
+bool isHole(const MaterialLookup& lookup, const Spot& spot) {
+  const scene::Material& material = lookup.materialOf(spot.object);
+  return material.alphaMode == scene::AlphaMode::Mask &&
+         lookup.opacity(spot) < material.alphaCutoff;
+}
+
+vec3 shareThrough(const MaterialLookup& lookup, const Spot& spot, vec3 toLightW) {
+  const scene::Material& material = lookup.materialOf(spot.object);
+  if (material.alphaMode != scene::AlphaMode::Blend) return vec3(isHole(lookup, spot) ? 1.f : 0.f);
+  if (!material.doubleSided && !lookup.frontFacing(spot, -toLightW)) return vec3(1.f);
+  return scene::transmittance(lookup.opacity(spot), material.transmission);
+}
+
 }  // namespace lucerna::trace

@@ -57,4 +57,11 @@ class MaterialLookup {
   std::vector<mat3> normalMatrices_;  // of each object
 };
 
+// Whether an alpha test leaves nothing there.
+bool isHole(const MaterialLookup& lookup, const Spot& spot);
+
+// What goes through a surface towards the light, per colour: 0 of what is opaque there, 1 of holes
+// and of one-sided translucent surfaces whose back faces the light. toLightW may have any length.
+vec3 shareThrough(const MaterialLookup& lookup, const Spot& spot, vec3 toLightW);
+
 }  // namespace lucerna::trace

@@ -43,20 +43,6 @@ Spot spotOf(RTCHitN* hit, unsigned count, unsigned lane) {
           .barycentric = {RTCHitN_u(hit, count, lane), RTCHitN_v(hit, count, lane)}};
 }
 
-bool isHole(const MaterialLookup& lookup, const Spot& spot) {
-  const scene::Material& material = lookup.materialOf(spot.object);
-  return material.alphaMode == scene::AlphaMode::Mask &&
-         lookup.opacity(spot) < material.alphaCutoff;
-}
-
-// What goes through towards the light.
-vec3 shareThrough(const MaterialLookup& lookup, const Spot& spot, vec3 toLightW) {
-  const scene::Material& material = lookup.materialOf(spot.object);
-  if (material.alphaMode != scene::AlphaMode::Blend) return vec3(isHole(lookup, spot) ? 1.f : 0.f);
-  if (!material.doubleSided && !lookup.frontFacing(spot, -toLightW)) return vec3(1.f);
-  return scene::transmittance(lookup.opacity(spot), material.transmission);
-}
-
 // Of the nearest surfaces holes are none; translucent ones are.
 void closestFilter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);

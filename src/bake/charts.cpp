@@ -1,0 +1,180 @@
+#include "bake/charts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bake/pair_charts.hpp"
+#include "bake/planar_charts.hpp"
+#include "core/check.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+struct Box2 {
+  vec2 min{std::numeric_limits<float>::infinity()};
+  vec2 max{-std::numeric_limits<float>::infinity()};
+  void grow(vec2 p) {
+    min = glm::min(min, p);
+    max = glm::max(max, p);
+  }
+};
+
+Box2 boxOf(const Chart& chart) {
+  Box2 box;
+  for (const auto& triangle : chart.corners)
+    for (const vec2 corner : triangle) box.grow(corner);
+  return box;
+}
+
+// Whole texels; a rounding error beyond one is not worth another.
+ivec2 texelsOf(vec2 size) {
+  return glm::max(ivec2(glm::ceil(size - 1e-3f)), ivec2(1));
+}
+
+// Moves the corners to the origin and sets the size.
+void settle(Chart& chart) {
+  const Box2 box = boxOf(chart);
+  chart.size = texelsOf(box.max - box.min);
+  const vec2 most(chart.size);
+  for (auto& triangle : chart.corners)
+    for (vec2& corner : triangle) corner = glm::clamp(corner - box.min, vec2(0.f), most);
+}
+
+// Two charts of the triangles whose centres lie below and above the middle of the longer side.
+// False if they all lie on one side of it.
+bool cut(const Chart& chart, Chart& low, Chart& high) {
+  const int axis = chart.size.x >= chart.size.y ? 0 : 1;
+  const float middle = 0.5f * static_cast<float>(chart.size[axis]);
+  for (Chart* half : {&low, &high}) {
+    half->object = chart.object;
+    half->density = chart.density;
+  }
+  for (std::size_t i = 0; i < chart.triangles.size(); ++i) {
+    const auto& c = chart.corners[i];
+    Chart& half = (c[0][axis] + c[1][axis] + c[2][axis]) / 3.f < middle ? low : high;
+    half.triangles.push_back(chart.triangles[i]);
+    half.corners.push_back(c);
+  }
+  return !low.triangles.empty() && !high.triangles.empty();
+}
+
+void shrink(Chart& chart, int mostSide) {
+  const Box2 box = boxOf(chart);
+  const vec2 size = box.max - box.min;
+  const float factor = static_cast<float>(mostSide) / std::max(size.x, size.y);
+  for (auto& triangle : chart.corners)
+    for (vec2& corner : triangle) corner *= factor;
+  chart.density *= factor;
+}
+
+// Adds the chart, or what it must be cut into to fit.
+void add(Charts& result, Chart chart, int mostSide) {
+  settle(chart);
+  if (std::max(chart.size.x, chart.size.y) <= mostSide) {
+    result.charts.push_back(std::move(chart));
+    return;
+  }
+  Chart low, high;
+  if (cut(chart, low, high)) {
+    add(result, std::move(low), mostSide);
+    add(result, std::move(high), mostSide);
+    return;
+  }
+  shrink(chart, mostSide);
+  settle(chart);
+  ++result.shrunk;
+  result.charts.push_back(std::move(chart));
+}
+
+// One object's triangles with corners of its own, counter-clockwise seen from the front.
+struct Part {
+  std::vector<vec3> positions;
+  std::vector<std::uint32_t> indices;
+};
+
+Part partOf(const World& world, const WorldObject& object) {
+  const auto indices = world.indicesOf(object);
+  const auto [least, most] = std::ranges::minmax(indices);
+  Part part;
+  part.positions.assign(world.positions.begin() + least, world.positions.begin() + most + 1);
+  for (const std::uint32_t index : indices) part.indices.push_back(index - least);
+  if (object.mirrored)
+    for (std::size_t i = 0; i < part.indices.size(); i += 3)
+      std::swap(part.indices[i + 1], part.indices[i + 2]);
+  return part;
+}
+
+// Corners in the order of the part become those in the order of the mesh.
+void addTriangle(Chart& chart, const WorldObject& object, std::uint32_t triangle,
+                 std::array<vec2, 3> corners) {
+  if (object.mirrored) std::swap(corners[1], corners[2]);
+  for (vec2& corner : corners) corner *= chart.density;
+  chart.triangles.push_back(triangle);
+  chart.corners.push_back(corners);
+}
+
+void addPlanar(Charts& result, const World& world, std::uint32_t index,
+               const ChartSettings& settings) {
+  const WorldObject& object = world.objects[index];
+  const Part part = partOf(world, object);
+  const PlanarCharts found = planarCharts(part.positions, part.indices);
+  result.degenerate += found.degenerate.size();
+  for (const PlanarChart& planar : found.charts) {
+    Chart chart{.object = index, .density = settings.density};
+    for (const std::uint32_t triangle : planar.triangles) {
+      std::array<vec2, 3> corners;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const vec3 p = part.positions[part.indices[3 * triangle + k]] - planar.origin;
+        corners[k] = {glm::dot(p, planar.alongU), glm::dot(p, planar.alongV)};
+      }
+      addTriangle(chart, object, triangle, corners);
+    }
+    add(result, std::move(chart), settings.mostSide);
+  }
+}
+
+std::array<vec2, 3> scaled(std::array<vec2, 3> corners, vec2 size) {
+  for (vec2& corner : corners) corner *= size;
+  return corners;
+}
+
+void addPairs(Charts& result, const World& world, std::uint32_t index,
+              const ChartSettings& settings) {
+  const WorldObject& object = world.objects[index];
+  const Part part = partOf(world, object);
+  const PairCharts found = pairCharts(part.positions, part.indices);
+  result.degenerate += found.degenerate.size();
+  for (const PairChart& pair : found.charts) {
+    Chart chart{.object = index, .density = settings.density};
+    addTriangle(chart, object, pair.first, scaled(pair.firstCorners, pair.size));
+    if (pair.second != PairChart::kAlone) {
+      addTriangle(chart, object, pair.second, scaled(pair.secondCorners, pair.size));
+      // A step of a texel each way is just as far as a texel reaches across the diagonal, whatever
+      // its slope: none is touched by both.
+      for (vec2& corner : chart.corners.back()) corner += 1.f;
+    }
+    add(result, std::move(chart), settings.mostSide);
+  }
+}
+
+}  // namespace
+
+Charts makeCharts(const World& world, const ChartSettings& settings) {
+  CHECK(settings.density > 0.f && settings.mostSide > 0);
+  Charts result;
+  for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
+    if (!world.objects[i].receives) continue;
+    switch (settings.unwrap) {
+      case Unwrap::Charts:
+        addPlanar(result, world, i, settings);
+        break;
+      case Unwrap::Pairs:
+        addPairs(result, world, i, settings);
+        break;
+    }
+  }
+  return result;
+}
+
+}  // namespace lucerna::bake

@@ -1,0 +1,42 @@
+// A scene cut into charts: pieces that lie flat in a lightmap, in texels.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bake/world.hpp"
+
+namespace lucerna::bake {
+
+enum class Unwrap {
+  Charts,  // connected triangles of one plane
+  Pairs,   // two right-angled triangles to a rectangle: bake/pair_charts.hpp
+};
+
+struct ChartSettings {
+  Unwrap unwrap = Unwrap::Charts;
+  float density = 10.f;  // texels a metre
+  int mostSide = 2048;   // texels; what is larger is cut, and a single triangle made smaller
+};
+
+// The texel (x, y) covers the square from (x, y) to (x + 1, y + 1).
+struct Chart {
+  std::uint32_t object = 0;                    // of World::objects
+  std::vector<std::uint32_t> triangles{};      // of that object
+  std::vector<std::array<vec2, 3>> corners{};  // of each, as its mesh orders them; texels
+  ivec2 size{1};                               // texels, around all corners
+  float density = 0.f;                         // texels a metre
+};
+
+struct Charts {
+  std::vector<Chart> charts;     // in the order of objects
+  std::uint64_t degenerate = 0;  // triangles without an area, or not finite; in no chart
+  std::uint64_t shrunk = 0;      // charts of one triangle that had to become smaller to fit
+};
+
+// Depends on each object alone: an edit of one changes no chart of another.
+Charts makeCharts(const World& world, const ChartSettings& settings);
+
+}  // namespace lucerna::bake

@@ -1,0 +1,21 @@
+// The lights of a bake, by the groups that switch together.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace lucerna::bake {
+
+struct LightGroup {
+  std::string name;  // "": always on
+  std::vector<scene::PlacedLight> lights;
+};
+
+// The group "" first, even if it is empty, then the others by name. Lights that the scene has
+// switched off take part: groups are for switching. The headlight, which goes with the camera, does
+// not. mostReach: m; no light reaches farther.
+std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach);
+
+}  // namespace lucerna::bake

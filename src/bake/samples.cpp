@@ -1,0 +1,286 @@
+#include "bake/samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bake/triangle.hpp"
+#include "core/check.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+using glm::dvec2;
+
+constexpr int kTile = 4;  // texels; neighbours in a tile are neighbours in the list
+
+// Twice the signed area.
+double cross(dvec2 a, dvec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// Weights of the second and third corner at a point.
+struct Barycentric {
+  explicit Barycentric(const std::array<vec2, 3>& corners)
+      : a(corners[0]), ab(dvec2(corners[1]) - a), ac(dvec2(corners[2]) - a), area2(cross(ab, ac)) {}
+  dvec2 at(dvec2 p) const { return {cross(p - a, ac) / area2, cross(ab, p - a) / area2}; }
+
+  dvec2 a, ab, ac;
+  double area2;  // 0: no triangle
+};
+
+bool isInside(dvec2 weights) {
+  constexpr double kRounding = 1e-9;  // so that edges belong to both sides rather than to none
+  return weights.x >= -kRounding && weights.y >= -kRounding &&
+         weights.x + weights.y <= 1. + kRounding;
+}
+
+// Texels of the block that a triangle's box meets: from first to before end.
+struct Range {
+  ivec2 first, end;
+};
+Range texelsBelow(const std::array<vec2, 3>& corners, const Block& block) {
+  const vec2 min = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+  const vec2 max = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+  return {glm::clamp(ivec2(glm::floor(min)) - block.corner, ivec2(0), block.size),
+          glm::clamp(ivec2(glm::floor(max)) + 1 - block.corner, ivec2(0), block.size)};
+}
+
+// A convex polygon that is cut by half-planes (Sutherland and Hodgman, "Reentrant Polygon
+// Clipping", 1974).
+class Polygon {
+ public:
+  explicit Polygon(const std::array<vec2, 3>& corners) {
+    for (const vec2 corner : corners) points_[count_++] = corner;
+  }
+  // Keeps what has sign * (p[axis] - bound) >= 0.
+  void cut(int axis, double bound, double sign) {
+    std::array<dvec2, kMost> kept;
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const dvec2 p = points_[i], q = points_[(i + 1) % count_];
+      const double dp = sign * (p[axis] - bound), dq = sign * (q[axis] - bound);
+      if (dp >= 0.) kept[n++] = p;
+      if ((dp < 0. && dq > 0.) || (dp > 0. && dq < 0.)) kept[n++] = p + (q - p) * (dp / (dp - dq));
+    }
+    points_ = kept;
+    count_ = n;
+  }
+  // area: positive whatever the orientation; its centroid, where the area is not 0.
+  double area(dvec2& centroid) const {
+    double twice = 0.;
+    dvec2 moment(0.);
+    for (std::size_t i = 1; i + 1 < count_; ++i) {
+      const dvec2 a = points_[0], b = points_[i], c = points_[i + 1];
+      const double part = cross(b - a, c - a);
+      twice += part;
+      moment += part * (a + b + c) / 3.;
+    }
+    if (twice != 0.) centroid = moment / twice;
+    return std::abs(0.5 * twice);
+  }
+
+ private:
+  static constexpr std::size_t kMost = 8;  // a triangle cut four times has seven corners at most
+  std::array<dvec2, kMost> points_;
+  std::size_t count_ = 0;
+};
+
+// Clear of the surface by some rounding errors of its place; as much as the reference does.
+vec3 lifted(vec3 positionW, vec3 normalW) {
+  const vec3 size = glm::abs(positionW);
+  return positionW + normalW * (std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-16f);
+}
+
+void clear(Samples& samples) {
+  for (auto* list : {&samples.x, &samples.y, &samples.z, &samples.nx, &samples.ny, &samples.nz})
+    list->clear();
+  samples.texels.clear();
+  samples.triangles.clear();
+  samples.boundsW = {};
+  samples.axis = vec3(0.f);
+  samples.cosine = -1.f;
+  samples.planar = false;
+}
+
+// A rectangle around samples of one plane whose sides follow `along`.
+std::array<vec3, 4> rectangleAround(const Samples& s, vec3 along) {
+  const vec3 squared = along - s.axis * glm::dot(s.axis, along);
+  const vec3 u = glm::normalize(squared), v = glm::cross(s.axis, u);
+  const vec3 origin(s.x[0], s.y[0], s.z[0]);
+  vec2 low(0.f), high(0.f);
+  for (std::size_t i = 1; i < s.size(); ++i) {
+    const vec3 d = vec3(s.x[i], s.y[i], s.z[i]) - origin;
+    const vec2 p(glm::dot(u, d), glm::dot(v, d));
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const auto at = [&](float x, float y) { return origin + u * x + v * y; };
+  return {at(low.x, low.y), at(high.x, low.y), at(high.x, high.y), at(low.x, high.y)};
+}
+
+// along: where the chart's x leads in the world, if it is planar.
+void findBounds(Samples& s, vec3 along) {
+  vec3 sum(0.f);
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    s.boundsW.grow({s.x[i], s.y[i], s.z[i]});
+    sum += vec3(s.nx[i], s.ny[i], s.nz[i]);
+  }
+  const float length = glm::length(sum);
+  if (!(length > 0.f)) return;
+  s.axis = sum / length;
+  s.cosine = 1.f;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    s.cosine = std::min(s.cosine, glm::dot(s.axis, vec3(s.nx[i], s.ny[i], s.nz[i])));
+    const float height = glm::dot(s.axis, vec3(s.x[i], s.y[i], s.z[i]));
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+  const vec3 size = glm::max(glm::abs(s.boundsW.min), glm::abs(s.boundsW.max));
+  const float rounding = std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-20f;
+  const vec3 square = along - s.axis * glm::dot(s.axis, along);
+  s.planar = s.cosine > 1.f - 0x1p-20f && high - low <= rounding &&
+             glm::dot(square, square) > 0.5f * glm::dot(along, along);
+  if (s.planar) s.corners = rectangleAround(s, along);
+}
+
+}  // namespace
+
+void addBlocks(std::vector<Block>& blocks, const Chart& chart, std::uint32_t index) {
+  for (int y = 0; y < chart.size.y; y += kBlockSide)
+    for (int x = 0; x < chart.size.x; x += kBlockSide)
+      blocks.push_back({.chart = index,
+                        .corner = {x, y},
+                        .size = glm::min(chart.size - ivec2(x, y), ivec2(kBlockSide))});
+}
+
+ChartSampler::ChartSampler(const World& world, const Chart& chart, int side)
+    : chart_(chart),
+      side_(side),
+      blocksAcross_((chart.size.x + kBlockSide - 1) / kBlockSide),
+      touching_(static_cast<std::size_t>(blocksAcross_) *
+                static_cast<std::size_t>((chart.size.y + kBlockSide - 1) / kBlockSide)) {
+  const WorldObject& object = world.objects[chart.object];
+  const auto indices = world.indicesOf(object);
+  for (const std::uint32_t triangle : chart.triangles) {
+    Surface& surface = surfaces_.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      surface.positionsW[k] = world.positions[indices[3 * triangle + k]];
+      surface.normalsW[k] = world.normals[indices[3 * triangle + k]];
+    }
+    surface.flatW = (object.mirrored ? -1.f : 1.f) * shapeOf(surface.positionsW).normal;
+  }
+  const Block whole{.size = chart.size};
+  for (std::uint32_t i = 0; i < chart.corners.size(); ++i) {
+    const Range range = texelsBelow(chart.corners[i], whole);
+    for (int y = range.first.y / kBlockSide; y * kBlockSide < range.end.y; ++y)
+      for (int x = range.first.x / kBlockSide; x * kBlockSide < range.end.x; ++x)
+        touching_[static_cast<std::size_t>(y * blocksAcross_ + x)].push_back(i);
+  }
+}
+
+// Of several triangles at a point the first counts.
+void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
+  const auto& corners = chart_.corners[triangle];
+  const Barycentric barycentric(corners);
+  if (barycentric.area2 == 0.) return;
+  const Range range = texelsBelow(corners, block);
+  for (int y = range.first.y; y < range.end.y; ++y)
+    for (int x = range.first.x; x < range.end.x; ++x) {
+      const auto texel = static_cast<std::size_t>(y * block.size.x + x);
+      for (std::size_t i = 0; i < perTexel(); ++i) {
+        Found& found = found_[texel * perTexel() + i];
+        if (found.triangle != Found::kNothing) continue;
+        const ivec2 step(static_cast<int>(i) % side_, static_cast<int>(i) / side_);
+        const dvec2 p =
+            dvec2(block.corner + ivec2(x, y)) + (dvec2(step) + 0.5) / static_cast<double>(side_);
+        const dvec2 weights = barycentric.at(p);
+        if (!isInside(weights)) continue;
+        found = {.triangle = triangle, .barycentric = vec2(weights)};
+        inside_[texel] = true;
+      }
+    }
+}
+
+void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
+  constexpr double kLeastArea = 1e-5;  // texels^2
+  const auto& corners = chart_.corners[triangle];
+  const Barycentric barycentric(corners);
+  if (barycentric.area2 == 0.) return;
+  const Range range = texelsBelow(corners, block);
+  for (int y = range.first.y; y < range.end.y; ++y)
+    for (int x = range.first.x; x < range.end.x; ++x) {
+      const auto texel = static_cast<std::size_t>(y * block.size.x + x);
+      if (inside_[texel]) continue;
+      const dvec2 corner(block.corner + ivec2(x, y));
+      Polygon polygon(corners);
+      for (int axis = 0; axis < 2; ++axis) {
+        polygon.cut(axis, corner[axis], 1.);
+        polygon.cut(axis, corner[axis] + 1., -1.);
+      }
+      dvec2 centroid(0.);
+      const double area = polygon.area(centroid);
+      Found& found = found_[texel * perTexel()];
+      if (area > kLeastArea && area > found.area)
+        found = {.triangle = triangle,
+                 .barycentric = vec2(barycentric.at(centroid)),
+                 .area = static_cast<float>(area)};
+    }
+}
+
+void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& samples) const {
+  const Surface& surface = surfaces_[found.triangle];
+  const float second = found.barycentric.x, third = found.barycentric.y;
+  const float first = 1.f - second - third;
+  const auto at = [&](const std::array<vec3, 3>& v) {
+    return v[0] * first + v[1] * second + v[2] * third;
+  };
+  const vec3 p = lifted(at(surface.positionsW), surface.flatW);
+  vec3 normal = at(surface.normalsW);
+  const float length = glm::length(normal);
+  normal = length > 1e-3f ? normal / length : surface.flatW;
+  samples.x.push_back(p.x);
+  samples.y.push_back(p.y);
+  samples.z.push_back(p.z);
+  samples.nx.push_back(normal.x);
+  samples.ny.push_back(normal.y);
+  samples.nz.push_back(normal.z);
+  samples.texels.push_back(texel);
+  samples.triangles.push_back(found.triangle);
+}
+
+void ChartSampler::emitTexel(const Block& block, ivec2 texel, Samples& samples) const {
+  const auto index = static_cast<std::size_t>(texel.y * block.size.x + texel.x);
+  for (std::size_t i = 0; i < perTexel(); ++i)
+    if (const Found& found = found_[index * perTexel() + i]; found.triangle != Found::kNothing)
+      emit(found, static_cast<std::uint16_t>(index), samples);
+}
+
+// Where a step along the chart's x leads on a triangle, in the world.
+vec3 ChartSampler::alongX(std::uint32_t triangle) const {
+  const auto& corners = chart_.corners[triangle];
+  const Barycentric barycentric(corners);
+  const dvec2 step = barycentric.at(barycentric.a + dvec2(1., 0.));
+  const auto& p = surfaces_[triangle].positionsW;
+  return (p[1] - p[0]) * static_cast<float>(step.x) + (p[2] - p[0]) * static_cast<float>(step.y);
+}
+
+void ChartSampler::sample(const Block& block, Samples& samples) {
+  clear(samples);
+  const auto texels = static_cast<std::size_t>(block.size.x) * block.size.y;
+  found_.assign(texels * perTexel(), {});
+  inside_.assign(texels, false);
+  const ivec2 place = block.corner / kBlockSide;
+  const auto& triangles = touching_[static_cast<std::size_t>(place.y * blocksAcross_ + place.x)];
+  for (const std::uint32_t triangle : triangles) findInside(block, triangle);
+  for (const std::uint32_t triangle : triangles) findBorder(block, triangle);
+  for (int y = 0; y < block.size.y; y += kTile)
+    for (int x = 0; x < block.size.x; x += kTile)
+      for (int ty = y; ty < std::min(y + kTile, block.size.y); ++ty)
+        for (int tx = x; tx < std::min(x + kTile, block.size.x); ++tx)
+          emitTexel(block, {tx, ty}, samples);
+  findBounds(samples, samples.triangles.empty() ? vec3(0.f) : alongX(samples.triangles[0]));
+}
+
+}  // namespace lucerna::bake

@@ -1,0 +1,40 @@
+// What is in the way between lights and samples: the one question that the baker asks of rays, and
+// two engines that answer it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "bake/world.hpp"
+
+namespace lucerna::bake {
+
+// Rays from a light to samples, in world space (m). Neighbours in the list should be neighbours in
+// the scene.
+struct ShadowRays {
+  std::vector<float> fromX, fromY, fromZ;  // on the light
+  std::vector<float> toX, toY, toZ;        // just off the surface that is lit
+
+  std::size_t size() const { return fromX.size(); }
+  void resize(std::size_t count) {
+    for (auto* list : {&fromX, &fromY, &fromZ, &toX, &toY, &toZ}) list->resize(count);
+  }
+};
+
+// Immutable once made: any number of threads may ask it.
+class ShadowTracer {
+ public:
+  virtual ~ShadowTracer() = default;
+  // What each ray lets through, per colour: 1 where nothing is in the way, 0 behind an opaque
+  // surface, else the product of the transmittances (scene/material.hpp) of what it crosses. Holes
+  // of alpha-tested surfaces are none; one-sided translucent surfaces count where their front faces
+  // the light. As many shares as rays.
+  virtual void trace(const ShadowRays& rays, std::span<vec3> shares) const = 0;
+};
+
+// By Embree, in packets of sixteen. The world outlives it, and so below.
+std::unique_ptr<ShadowTracer> makeEmbreeTracer(const World& world);
+
+}  // namespace lucerna::bake

@@ -1,0 +1,178 @@
+#include "lightmap/manifest.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "core/json_value.hpp"
+
+namespace lucerna::lightmap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "lightmap/1";
+constexpr int kMostIndex = 1 << 30;
+
+Json json(const FileEntry& entry) {
+  return {{"file", entry.file}, {"hash", entry.hash}};
+}
+
+Json json(const MapEntry& map) {
+  Json encoded = Json::array();
+  for (const FileEntry& entry : map.encoded) encoded.push_back(json(entry));
+  return {{"master", json(map.master)},
+          {"encoded", std::move(encoded)},
+          {"largest", {map.largest.x, map.largest.y, map.largest.z}},
+          {"texels", map.texels}};
+}
+
+Json json(const PatchEntry& patch) {
+  return {{"group", patch.group},     {"form", patch.form},   {"file", patch.patch.file},
+          {"hash", patch.patch.hash}, {"bytes", patch.bytes}, {"otherBytes", patch.otherBytes}};
+}
+
+Json json(const ObjectEntry& object) {
+  return {{"object", object.object},
+          {"node", object.node},
+          {"charts", object.charts},
+          {"maps", object.maps}};
+}
+
+Json json(const LightEntry& light) {
+  return {{"light", light.light}, {"name", light.name}, {"group", light.group}};
+}
+
+template <typename T>
+Json list(const std::vector<T>& entries) {
+  Json result = Json::array();
+  for (const T& entry : entries) result.push_back(json(entry));
+  return result;
+}
+
+// Names a file of the folder itself: never one outside.
+bool isPlainName(const std::string& name) {
+  return !name.empty() && name != "." && name != ".." &&
+         name.find_first_of("/\\") == std::string::npos;
+}
+
+bool isHash(const std::string& hash) {
+  return hash.size() == 16 && hash.find_first_not_of("0123456789abcdef") == std::string::npos;
+}
+
+void readFileEntry(const JsonValue& value, FileEntry& entry) {
+  if (value.read("file", entry.file) && !isPlainName(entry.file))
+    value.at("file").wrong("the name of a file beside the manifest");
+  if (value.read("hash", entry.hash) && !isHash(entry.hash))
+    value.at("hash").wrong("sixteen hexadecimal digits");
+  value.require({"file", "hash"});
+}
+
+void readOnlyFile(const JsonValue& value, FileEntry& entry) {
+  if (value.object({"file", "hash"})) readFileEntry(value, entry);
+}
+
+// Counts of more than 2^30 are none of a lightmap's.
+void readCount(const JsonValue& value, const char* key, std::uint64_t& out) {
+  int count = 0;
+  if (value.readInteger(key, count, 0, kMostIndex)) out = static_cast<std::uint64_t>(count);
+}
+void readIndex(const JsonValue& value, const char* key, std::uint32_t& out) {
+  int index = 0;
+  if (value.readInteger(key, index, 0, kMostIndex)) out = static_cast<std::uint32_t>(index);
+}
+
+void readEntry(const JsonValue& value, MapEntry& map) {
+  if (!value.object({"master", "encoded", "largest", "texels"})) return;
+  value.require({"master"});
+  if (value.has("master")) readOnlyFile(value.at("master"), map.master);
+  if (value.has("encoded"))
+    for (const JsonValue& encoded : value.at("encoded").elements())
+      readOnlyFile(encoded, map.encoded.emplace_back());
+  value.read("largest", map.largest, kNotNegative);
+  readCount(value, "texels", map.texels);
+}
+
+void readEntry(const JsonValue& value, PatchEntry& patch) {
+  if (!value.object({"group", "form", "file", "hash", "bytes", "otherBytes"})) return;
+  value.require({"group", "form"});
+  value.read("group", patch.group);
+  int form = 0;
+  if (value.readChoice("form", {"tiles", "triangles"}, form))
+    patch.form = form == 0 ? "tiles" : "triangles";
+  readFileEntry(value, patch.patch);
+  readCount(value, "bytes", patch.bytes);
+  readCount(value, "otherBytes", patch.otherBytes);
+}
+
+void readEntry(const JsonValue& value, ObjectEntry& object) {
+  if (!value.object({"object", "node", "charts", "maps"})) return;
+  readIndex(value, "object", object.object);
+  value.read("node", object.node);
+  readIndex(value, "charts", object.charts);
+  if (!value.has("maps")) return;
+  for (const JsonValue& map : value.at("maps").elements()) {
+    float index = 0.f;
+    if (map.number(index, {0.f, 65535.f, ""})) object.maps.push_back(static_cast<int>(index));
+  }
+}
+
+void readEntry(const JsonValue& value, LightEntry& light) {
+  if (!value.object({"light", "name", "group"})) return;
+  readIndex(value, "light", light.light);
+  value.read("name", light.name);
+  value.read("group", light.group);
+}
+
+template <typename T>
+void readList(const JsonValue& root, const char* key, std::vector<T>& entries) {
+  if (!root.has(key)) return;
+  for (const JsonValue& value : root.at(key).elements()) readEntry(value, entries.emplace_back());
+}
+
+}  // namespace
+
+std::string hashText16(std::uint64_t hash) {
+  return fmt::format("{:016x}", hash);
+}
+
+std::string toJson(const Manifest& m) {
+  const Json document{{"lucerna", kFormat},
+                      {"scene", {{"name", m.scene}, {"hash", m.sceneHash}}},
+                      {"settings", m.settings.empty() ? Json::object() : Json::parse(m.settings)},
+                      {"processor", m.processor},
+                      {"side", m.side},
+                      {"density", m.density},
+                      {"layout", json(m.layout)},
+                      {"maps", list(m.maps)},
+                      {"patches", list(m.patches)},
+                      {"objects", list(m.objects)},
+                      {"lights", list(m.lights)}};
+  return document.dump(1) + "\n";
+}
+
+Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
+  LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
+  const JsonValue root = document.root();
+  Manifest m;
+  if (!root.object({"lucerna", "scene", "settings", "processor", "side", "density", "layout",
+                    "maps", "patches", "objects", "lights"}))
+    return document.status().error();
+  root.format(kFormat);
+  root.require({"lucerna", "scene", "side", "layout", "maps"});
+  if (root.has("scene") && root.at("scene").object({"name", "hash"})) {
+    root.at("scene").read("name", m.scene);
+    root.at("scene").read("hash", m.sceneHash);
+  }
+  root.read("processor", m.processor);
+  root.readInteger("side", m.side, 1, 32768);
+  root.read("density", m.density, {0.f, 1e6f, "texels/m"});
+  if (root.has("layout")) readOnlyFile(root.at("layout"), m.layout);
+  readList(root, "maps", m.maps);
+  readList(root, "patches", m.patches);
+  readList(root, "objects", m.objects);
+  readList(root, "lights", m.lights);
+  LUCERNA_TRY_VOID(document.status());
+  return m;
+}
+
+}  // namespace lucerna::lightmap
