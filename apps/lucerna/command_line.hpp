@@ -35,6 +35,7 @@ CLI::App* addCommand(CommandLine& line, CLI::App& parent, const std::string& nam
 void addRender(CommandLine& line);
 void addReference(CommandLine& line);
 void addCompare(CommandLine& line);
+void addBake(CommandLine& line);
 void addBench(CommandLine& line);
 void addInfo(CommandLine& line);
 void addDoctor(CommandLine& line);

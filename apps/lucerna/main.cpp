@@ -41,6 +41,7 @@ int run(int count, char** words) {
   addRender(line);
   addReference(line);
   addCompare(line);
+  addBake(line);
   addBench(line);
   addInfo(line);
   addDoctor(line);

@@ -1,0 +1,198 @@
+// lucerna bake SCENE -o DIR
+
+#include "bake/bake.hpp"
+
+#include <chrono>
+#include <map>
+#include <memory>
+
+#include "command_line.hpp"
+#include "core/log.hpp"
+#include "core/parallel.hpp"
+#include "core/progress.hpp"
+#include "scene/load.hpp"
+
+namespace lucerna::cli {
+namespace {
+
+struct Options {
+  std::string scene, folder, preset = "standard";
+  bake::BakeSettings bake;
+  bake::Shard shard;
+  bool resume = false, dryRun = false;
+  int threads = 0;
+};
+
+// What the presets stand for.
+const std::map<std::string, bake::Sampling>& presets() {
+  static const std::map<std::string, bake::Sampling> known{
+      {"preview", {.positions = 1, .lightSamples = 1}},
+      {"standard", {.positions = 1, .lightSamples = 16}},
+      {"final", {.positions = 4, .lightSamples = 16}}};
+  return known;
+}
+
+// "2/5"
+Result<bake::Shard> shardFromText(const std::string& text) {
+  bake::Shard shard;
+  char rest = 0;
+  const int read = std::sscanf(text.c_str(), "%d/%d%c", &shard.index, &shard.count, &rest);
+  if (read != 2 || shard.count < 1 || shard.count > 65536 || shard.index < 1 ||
+      shard.index > shard.count)
+    return error(ErrorKind::Usage, "found '{}', wanted i/N with i from 1 to N, as 2/5", text);
+  return shard;
+}
+
+double millions(std::uint64_t count) {
+  return static_cast<double>(count) / 1e6;
+}
+
+Json describe(const bake::Plan& plan) {
+  std::vector<ivec2> sizes;
+  for (const bake::Chart& chart : plan.charts.charts) sizes.push_back(chart.size);
+  std::size_t lights = 0;
+  for (const bake::LightGroup& group : plan.groups) lights += group.lights.size();
+  return {{"scene", plan.world.scene->name},
+          {"triangles", plan.world.triangleCount()},
+          {"charts", plan.charts.charts.size()},
+          {"texels", plan.texels()},
+          {"maps", plan.packing.maps},
+          {"side", plan.settings.pack.side},
+          {"occupancy", bake::occupancy(plan.packing, sizes, plan.settings.pack.side)},
+          {"units", plan.units.size()},
+          {"lights", lights},
+          {"groups", plan.groups.size() - 1}};
+}
+
+Json describe(const bake::BakeReport& report) {
+  const bake::LightCounters& c = report.counters;
+  return {{"units", report.units},
+          {"units_before", report.unitsBefore},
+          {"texels", report.texels},
+          {"pairs", c.pairs},
+          {"rays", c.rays},
+          {"seconds",
+           {{"prepare", report.seconds.prepare},
+            {"light", report.seconds.light},
+            {"finish", report.seconds.finish}}},
+          {"cpu_seconds",
+           {{"sampling", report.samplingSeconds},
+            {"shading", c.shadingSeconds},
+            {"tracing", c.tracingSeconds}}}};
+}
+
+void sayPlan(const bake::Plan& plan) {
+  const Json d = describe(plan);
+  log::info("{} triangles in {} charts, {:.1f} million texels in {} maps of {} x {}",
+            d["triangles"].get<std::size_t>(), d["charts"].get<std::size_t>(),
+            millions(plan.texels()), plan.packing.maps, plan.settings.pack.side,
+            plan.settings.pack.side);
+}
+
+void sayReport(const bake::BakeReport& report) {
+  const bake::LightCounters& c = report.counters;
+  log::info(
+      "light {:.2f} s: {:.1f} million pairs of light and texel, {:.1f} million rays; of all "
+      "threads "
+      "{:.2f} s for samples, {:.2f} s for shading, {:.2f} s for rays ({:.1f} million a second)",
+      report.seconds.light, millions(c.pairs), millions(c.rays), report.samplingSeconds,
+      c.shadingSeconds, c.tracingSeconds, millions(c.rays) / std::max(c.tracingSeconds, 1e-9));
+}
+
+Result<int> bakeScene(Options& options, bool json) {
+  const auto start = std::chrono::steady_clock::now();
+  setThreadCount(options.threads);
+  options.bake.sampling = presets().at(options.preset);
+  if (!options.dryRun)
+    LUCERNA_TRY_VOID(bake::prepareFolder(options.folder, options.resume, options.shard));
+  LUCERNA_TRY(scene, scene::loadScene(options.scene));
+  for (const std::string& warning : scene.warnings) log::warning("{}", warning);
+  scene::animate(scene, 0.f);
+  LUCERNA_TRY(plan, bake::makePlan(scene, options.bake));
+  for (const std::string& warning : plan.warnings) log::warning("{}", warning);
+  sayPlan(plan);
+  Json document = describe(plan);
+  if (!options.dryRun) {
+    bake::BakeReport report;
+    const std::chrono::duration<double> planned = std::chrono::steady_clock::now() - start;
+    report.seconds.prepare = planned.count();
+    LUCERNA_TRY_VOID(bake::lightShard(plan, options.folder, options.shard, report));
+    sayReport(report);
+    if (options.shard.count == 1) LUCERNA_TRY_VOID(bake::finish(plan, options.folder, report));
+    for (const std::string& warning : report.warnings) log::warning("{}", warning);
+    document["bake"] = describe(report);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    log::info("{} in {:.1f} s",
+              options.shard.count == 1
+                  ? fmt::format("wrote {}", options.folder)
+                  : fmt::format("finished shard {} of {} in {}", options.shard.index,
+                                options.shard.count, options.folder),
+              seconds.count());
+  }
+  if (json) printJson(document);
+  return 0;
+}
+
+void addChartFlags(CLI::App& command, bake::BakeSettings& settings) {
+  command.add_option("--density", settings.density, "texels a metre (10)")
+      ->check(between(1e-3, 1e5, "texels/m"));
+  command.add_option("--size", settings.pack.side, "texels along each side of a map (2048)")
+      ->check(wholeNumber(16, 16384));
+  command.add_option("--most-maps", settings.pack.mostMaps, "more maps are an error (256)")
+      ->check(wholeNumber(1, 4096));
+  command.add_option("--padding", settings.pack.gap, "texels between charts (2)")
+      ->check(wholeNumber(1, 64));
+  command
+      .add_option_function<std::string>(
+          "--unwrap",
+          [&](const std::string& value) {
+            settings.unwrap = value == "pairs" ? bake::Unwrap::Pairs : bake::Unwrap::Charts;
+          },
+          "charts, or pairs of right-angled triangles as the thesis (charts)")
+      ->check(oneOf({"charts", "pairs"}));
+}
+
+}  // namespace
+
+void addBake(CommandLine& line) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = addCommand(line, line.app, "bake", "bake a scene's lights into lightmaps",
+                                 [&line, options] { return bakeScene(*options, line.talk.json); });
+  command->add_option("SCENE", options->scene, sceneHelp())->required();
+  command->add_option("-o,--output", options->folder, "folder of the lightmap")->required();
+  command->add_option("--preset", options->preset, "preview, standard or final (standard)")
+      ->check(oneOf({"preview", "standard", "final"}));
+  addChartFlags(*command, options->bake);
+  command->add_option("--reach", options->bake.reach, "m that lights reach at most (as they say)")
+      ->check(between(0.01, 1e6, "m"));
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--lights",
+          [options](const std::vector<std::string>& groups) {
+            if (groups != std::vector<std::string>{"all"}) options->bake.groups = groups;
+          },
+          "all, or GROUP,GROUP...; always-on is what has none (all)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command
+      ->add_option_function<std::string>(
+          "--engine",
+          [options](const std::string& value) {
+            options->bake.engine = value == "octree" ? bake::Engine::Octree : bake::Engine::Embree;
+          },
+          "embree, or octree as the thesis (embree)")
+      ->check(oneOf({"embree", "octree"}));
+  command->add_flag("--resume", options->resume, "go on where an earlier run stopped");
+  command->add_option_function<std::string>(
+      "--shard",
+      [options](const std::string& text) {
+        options->shard = orUsageError("--shard", shardFromText(text));
+      },
+      "i/N: the i-th of N parts, which share DIR; then lucerna lightmap merge");
+  command->add_flag("--dry-run", options->dryRun,
+                    "say what would be baked, and what it would take");
+  command->add_option("--threads", options->threads, "CPU threads; 0: one a core (0)")
+      ->check(wholeNumber(0, 1024));
+}
+
+}  // namespace lucerna::cli

@@ -1,0 +1,42 @@
+// Finished units put into maps.
+#pragma once
+
+#include <vector>
+
+#include "bake/plan.hpp"
+#include "bake/unit_light.hpp"
+#include "image/image.hpp"
+
+namespace lucerna::bake {
+
+// A texel of a map that lies on the scene, or beside one that does.
+struct MapTexels {
+  int side = 0;
+  std::vector<std::vector<bool>> touched;  // of each map, row by row
+
+  bool has(int map, ivec2 p) const {
+    return p.x >= 0 && p.y >= 0 && p.x < side && p.y < side &&
+           touched[static_cast<std::size_t>(map)][static_cast<std::size_t>(p.y) * side + p.x];
+  }
+};
+
+// One group's light where there is any: irradiance.
+struct LitTexel {
+  std::uint16_t map = 0, x = 0, y = 0;
+  std::array<std::uint16_t, 3> rgb{};  // half floats
+};
+
+struct BakedLight {
+  MapTexels texels;
+  std::vector<Image> maps;                    // Half RGB, of Plan::groups[0]
+  std::vector<std::vector<LitTexel>> groups;  // as Plan::groups; [0] is empty
+};
+
+BakedLight emptyLight(const Plan& plan);
+void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light);
+
+// Gives texels beside those that the scene touches the mean of these, for bilinear filtering; in
+// the maps and in the groups. Sorts the groups by map, row and column.
+void dilate(BakedLight& baked);
+
+}  // namespace lucerna::bake

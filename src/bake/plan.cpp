@@ -1,0 +1,125 @@
+#include "bake/plan.hpp"
+
+#include <algorithm>
+
+#include "bake/plan_hash.hpp"
+#include "core/text.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+constexpr std::uint32_t kUnitTexels = 8192;  // a slow engine is done with so many in seconds
+
+std::vector<Unit> shareOut(std::span<const Block> blocks) {
+  std::vector<Unit> units;
+  for (std::uint32_t i = 0; i < blocks.size(); ++i) {
+    const auto texels = static_cast<std::uint32_t>(blocks[i].size.x * blocks[i].size.y);
+    if (units.empty() || units.back().texels + texels > kUnitTexels)
+      units.push_back({.firstBlock = i, .blocks = 0, .texels = 0});
+    ++units.back().blocks;
+    units.back().texels += texels;
+  }
+  return units;
+}
+
+// Leaves the groups that are asked for; what is always on is one of the name "always-on".
+Status choose(std::vector<LightGroup>& groups, std::span<const std::string> wanted) {
+  if (wanted.empty()) return {};
+  std::vector<std::string> names;
+  for (const LightGroup& group : groups)
+    names.push_back(group.name.empty() ? "always-on" : group.name);
+  for (const std::string& name : wanted)
+    if (std::ranges::find(names, name) == names.end())
+      return error(ErrorKind::Usage,
+                   "--lights: the scene has no light group '{}'{}; wanted all or some of {}", name,
+                   didYouMean(name, names), fmt::join(names, ", "));
+  for (std::size_t i = groups.size(); i-- > 0;) {
+    if (std::ranges::find(wanted, names[i]) != wanted.end()) continue;
+    if (i == 0)
+      groups[i].lights.clear();
+    else
+      groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return {};
+}
+
+void addWarnings(Plan& plan) {
+  const Charts& charts = plan.charts;
+  if (charts.degenerate > 0)
+    plan.warnings.push_back(fmt::format(
+        "{} triangles have no area or are not finite and get no light", charts.degenerate));
+  if (charts.shrunk > 0)
+    plan.warnings.push_back(fmt::format(
+        "{} triangles are larger than a map and have fewer texels a metre; larger maps (--size) or "
+        "a lower --density would hold them",
+        charts.shrunk));
+  const bool dark =
+      std::ranges::all_of(plan.groups, [](const LightGroup& g) { return g.lights.empty(); });
+  if (dark) plan.warnings.push_back("the scene has no lights to bake; the maps will be black");
+}
+
+}  // namespace
+
+std::uint64_t Plan::texels() const {
+  std::uint64_t sum = 0;
+  for (const Unit& unit : units) sum += unit.texels;
+  return sum;
+}
+
+Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
+  Plan plan;
+  plan.settings = settings;
+  plan.world = makeWorld(scene);
+  plan.charts = makeCharts(
+      plan.world,
+      {.unwrap = settings.unwrap, .density = settings.density, .mostSide = settings.pack.side});
+  if (plan.charts.charts.empty())
+    return error(ErrorKind::Input,
+                 "'{}': found no triangle that takes light; wanted a scene with surfaces",
+                 scene.name);
+  std::vector<ivec2> sizes;
+  for (const Chart& chart : plan.charts.charts) sizes.push_back(chart.size);
+  LUCERNA_TRY(packing, pack(sizes, settings.pack));
+  plan.packing = std::move(packing);
+  for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i)
+    addBlocks(plan.blocks, plan.charts.charts[i], i);
+  plan.units = shareOut(plan.blocks);
+  plan.groups = groupLights(scene, settings.reach);
+  LUCERNA_TRY_VOID(choose(plan.groups, settings.groups));
+  plan.hash = hashOf(plan);
+  addWarnings(plan);
+  return plan;
+}
+
+ivec2 placed(const Plan& plan, std::uint32_t chart, ivec2 texel) {
+  const Place& place = plan.packing.places[chart];
+  return place.corner + (place.turned ? ivec2(texel.y, texel.x) : texel);
+}
+
+vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point) {
+  const Place& place = plan.packing.places[chart];
+  return vec2(place.corner) + (place.turned ? vec2(point.y, point.x) : point);
+}
+
+lightmap::Layout layoutOf(const Plan& plan) {
+  lightmap::Layout layout{.side = plan.settings.pack.side,
+                          .maps = plan.packing.maps,
+                          .charts = static_cast<int>(plan.charts.charts.size()),
+                          .objects = {}};
+  layout.objects.resize(plan.world.scene->objects.size());
+  for (const WorldObject& object : plan.world.objects)
+    layout.objects[object.object].resize(object.triangleCount);
+  for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i) {
+    const Chart& chart = plan.charts.charts[i];
+    auto& triangles = layout.objects[plan.world.objects[chart.object].object];
+    for (std::size_t k = 0; k < chart.triangles.size(); ++k) {
+      lightmap::TrianglePlace& place = triangles[chart.triangles[k]];
+      place.map = plan.packing.places[i].map;
+      place.chart = i;
+      for (std::size_t c = 0; c < 3; ++c) place.corners[c] = placed(plan, i, chart.corners[k][c]);
+    }
+  }
+  return layout;
+}
+
+}  // namespace lucerna::bake

@@ -1,0 +1,69 @@
+// All that a bake decides before the first ray: charts and their places, lights, and the units of
+// work that shards share out. The same scene and settings give the same plan.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "bake/charts.hpp"
+#include "bake/light_set.hpp"
+#include "bake/pack.hpp"
+#include "bake/samples.hpp"
+#include "bake/world.hpp"
+#include "core/result.hpp"
+#include "lightmap/layout.hpp"
+
+namespace lucerna::bake {
+
+enum class Engine { Embree, Octree };
+
+// How finely light is sampled.
+struct Sampling {
+  int positions = 1;     // along each side of a texel
+  int lightSamples = 4;  // points on a light with a size, see BlockLighter
+};
+
+struct BakeSettings {
+  Unwrap unwrap = Unwrap::Charts;
+  float density = 10.f;  // texels a metre
+  PackSettings pack;
+  Sampling sampling;
+  float reach = std::numeric_limits<float>::infinity();  // m that lights reach at most
+  std::vector<std::string> groups;                       // of lights that are baked; empty: all
+  Engine engine = Engine::Embree;
+};
+
+// Blocks that are lit and stored together.
+struct Unit {
+  std::uint32_t firstBlock = 0, blocks = 0;
+  std::uint32_t texels = 0;  // of the blocks, those that touch nothing too
+};
+
+struct Plan {
+  BakeSettings settings;
+  World world;
+  Charts charts;
+  Packing packing;  // of the charts
+  std::vector<Block> blocks;
+  std::vector<Unit> units;
+  std::vector<LightGroup> groups;  // [0] is what is always on
+  std::uint64_t hash = 0;          // of everything that the light depends on
+  std::vector<std::string> warnings;
+
+  std::uint64_t texels() const;  // of all charts' rectangles
+};
+
+// The scene outlives the plan. Errors: a scene without triangles (ErrorKind::Input), maps that
+// cannot hold it (the message says the density that would fit), an unknown group of lights
+// (ErrorKind::Usage).
+Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings);
+
+// A texel of a chart in the maps, and a point in the chart's texels.
+ivec2 placed(const Plan& plan, std::uint32_t chart, ivec2 texel);
+vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point);
+
+lightmap::Layout layoutOf(const Plan& plan);
+
+}  // namespace lucerna::bake

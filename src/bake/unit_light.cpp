@@ -1,0 +1,121 @@
+#include "bake/unit_light.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "bake/triangle.hpp"
+#include "core/byte_stream.hpp"
+#include "core/check.hpp"
+#include "image/image.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr float kLargestHalf = 65504.f;
+
+Aabb boundsOf(const World& world) {
+  Aabb box;
+  for (const std::uint32_t index : world.indices)
+    if (isFinite(world.positions[index])) box.grow(world.positions[index]);
+  return box;
+}
+
+std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan) {
+  switch (plan.settings.engine) {
+    case Engine::Embree:
+      return makeEmbreeTracer(plan.world);
+    case Engine::Octree:
+      break;
+  }
+  CHECK(false, "the octree is yet to come");
+}
+
+// The same members in the same order, written or read.
+template <typename Stream, typename L>
+void fields(Stream& stream, L& light) {
+  stream.list(light.blocks, [](auto& s, auto& block) {
+    s(block.touched);
+    s.list(block.groups, [](auto& inner, auto& group) {
+      inner(group.group);
+      inner(group.rgb);
+    });
+  });
+}
+
+bool isSound(const BlockLight& light, const Block& block, std::size_t groups) {
+  const auto texels = static_cast<std::size_t>(block.size.x) * block.size.y;
+  if (light.touched.size() != (texels + 7) / 8) return false;
+  std::size_t touched = 0;
+  for (const std::uint8_t byte : light.touched) touched += std::popcount(byte);
+  return std::ranges::all_of(light.groups, [&](const GroupLight& group) {
+    return group.group < groups && group.rgb.size() == 3 * touched;
+  });
+}
+
+}  // namespace
+
+Bytes toBytes(const UnitLight& light) {
+  ByteWriter writer;
+  fields(writer, light);
+  return std::move(writer.bytes);
+}
+
+std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const Plan& plan,
+                                       const Unit& unit) {
+  ByteReader reader(bytes);
+  UnitLight light;
+  fields(reader, light);
+  if (!reader.good() || !reader.atEnd() || light.blocks.size() != unit.blocks) return {};
+  for (std::size_t i = 0; i < light.blocks.size(); ++i)
+    if (!isSound(light.blocks[i], plan.blocks[unit.firstBlock + i], plan.groups.size())) return {};
+  return light;
+}
+
+LightScene::LightScene(const Plan& plan)
+    : tracer(makeTracer(plan)),
+      occluders(plan.world),
+      diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
+
+UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
+    : plan_(plan),
+      lighter_(*scene.tracer, scene.occluders, plan.settings.sampling.lightSamples,
+               scene.diagonal) {}
+
+BlockLight UnitLighter::lightBlock(const Block& block) {
+  const auto start = Clock::now();
+  if (chart_ != block.chart) {
+    sampler_.emplace(plan_.world, plan_.charts.charts[block.chart],
+                     plan_.settings.sampling.positions);
+    chart_ = block.chart;
+  }
+  sampler_->sample(block, samples_);
+  samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+
+  const auto count = static_cast<std::size_t>(block.size.x) * block.size.y;
+  BlockLight result;
+  result.touched.assign((count + 7) / 8, 0);
+  for (const std::uint16_t texel : samples_.texels)
+    result.touched[texel / 8] |= static_cast<std::uint8_t>(1u << (texel % 8));
+  for (std::uint32_t g = 0; g < plan_.groups.size(); ++g) {
+    texels_.assign(count, vec3(0.f));
+    lighter_.light(samples_, plan_.groups[g].lights, texels_);
+    if (std::ranges::all_of(texels_, [](vec3 v) { return v == vec3(0.f); })) continue;
+    GroupLight& group = result.groups.emplace_back(GroupLight{.group = g, .rgb = {}});
+    for (std::size_t i = 0; i < count; ++i)
+      if (result.touched[i / 8] >> (i % 8) & 1)
+        for (int c = 0; c < 3; ++c)
+          group.rgb.push_back(halfFromFloat(std::min(texels_[i][c], kLargestHalf)));
+  }
+  return result;
+}
+
+UnitLight UnitLighter::light(const Unit& unit) {
+  UnitLight result;
+  for (std::uint32_t i = 0; i < unit.blocks; ++i)
+    result.blocks.push_back(lightBlock(plan_.blocks[unit.firstBlock + i]));
+  return result;
+}
+
+}  // namespace lucerna::bake

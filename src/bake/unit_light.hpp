@@ -1,0 +1,58 @@
+// The light of one unit: what a shard makes, stores, and merging puts into the maps.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "bake/block_lighter.hpp"
+#include "bake/plan.hpp"
+#include "core/file.hpp"
+
+namespace lucerna::bake {
+
+// Irradiance as half floats, red, green, blue of each texel that touches the chart, row by row.
+struct GroupLight {
+  std::uint32_t group = 0;  // of Plan::groups
+  std::vector<std::uint16_t> rgb;
+};
+struct BlockLight {
+  std::vector<std::uint8_t> touched;  // a bit for each texel of the block, row by row, lowest first
+  std::vector<GroupLight> groups;     // those that give some light, in rising order
+};
+struct UnitLight {
+  std::vector<BlockLight> blocks;  // as the unit's
+};
+
+Bytes toBytes(const UnitLight& light);
+// Nothing if the bytes are no light of that unit.
+std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const Plan& plan,
+                                       const Unit& unit);
+
+// What the tracing of a plan needs, made once; any number of threads may use it.
+struct LightScene {
+  explicit LightScene(const Plan& plan);
+  std::unique_ptr<ShadowTracer> tracer;
+  Occluders occluders;
+  float diagonal = 0.f;  // m
+};
+
+// One thread's way through the units.
+class UnitLighter {
+ public:
+  UnitLighter(const Plan& plan, const LightScene& scene);
+  UnitLight light(const Unit& unit);
+  const LightCounters& counters() const { return lighter_.counters; }
+  double samplingSeconds = 0.;
+
+ private:
+  BlockLight lightBlock(const Block& block);
+
+  const Plan& plan_;
+  BlockLighter lighter_;
+  std::optional<ChartSampler> sampler_;
+  std::uint32_t chart_ = 0xffffffffu;  // of sampler_
+  Samples samples_;
+  std::vector<vec3> texels_;
+};
+
+}  // namespace lucerna::bake
