@@ -349,7 +349,7 @@ TEST_F(Lamps, AFileThatIsNoTextIsAnError) {
     EXPECT_EQ(scene.error().kind, ErrorKind::Input);
     return scene.error().message;
   };
-  write("lights.ini", std::string("CONFIG\nlightmap_size\0 7\nEND\n", 29));
+  write("lights.ini", std::string("CONFIG\nlightmap_size\0 7\nEND\n", 28));
   EXPECT_THAT(refusal(),
               AllOf(HasSubstr("lights.ini:2: found the byte 0x00"), HasSubstr("wanted text")));
   fs::remove(folder_ / "lights.ini");
