@@ -60,6 +60,7 @@ void append(Scene& scene, Scene part, const Node& place, std::optional<std::size
   for (Camera& camera : part.cameras) below(camera.node);
   for (Animation& animation : part.animations)
     for (AnimationChannel& channel : animation.channels) shift(channel.node, nodes);
+  if (scene.bake == BakeHints{}) scene.bake = part.bake;
   if (first) {
     scene.background = part.background;
     scene.exposure = part.exposure;

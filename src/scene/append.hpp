@@ -8,8 +8,8 @@
 namespace lucerna::scene {
 
 // Adds everything of `part` below a new node at `place`. The ambient light of both adds up; the
-// background and exposure of `part` count only where the scene was empty. `materials`: where those
-// of `part` stand in the scene already, which then adds none.
+// background and exposure of `part` count only where the scene was empty, its bake hints only where
+// it has none. `materials`: where those of `part` stand in the scene already, which then adds none.
 void append(Scene& scene, Scene part, const Node& place,
             std::optional<std::size_t> materials = std::nullopt);
 

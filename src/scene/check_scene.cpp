@@ -132,6 +132,16 @@ bool goodSkin(const Scene& scene, const Object& object) {
   return highest == joints.end() || *highest < scene.skins[object.skin].joints.size();
 }
 
+Status checkBake(const BakeHints& bake) {
+  const AreaLightRule area = bake.area.value_or(AreaLightRule{});
+  const float tolerance = bake.patchTolerance.value_or(0.f);
+  const int size = bake.mapSize.value_or(16);
+  const bool good = finite(vec3(area.cut, area.attenuation, area.intensity)) && area.cut > 0.f &&
+                    area.attenuation > 0.f && area.intensity >= 0.f && std::isfinite(tolerance) &&
+                    tolerance >= 0.f && size >= 16 && size <= 16384;
+  return good ? Status() : error(ErrorKind::Input, "a bake hint is out of range");
+}
+
 Status checkLight(const Light& light, std::size_t index, std::size_t nodeCount) {
   const float numbers[] = {
       light.intensity, light.ambientIntensity, light.range,     light.radius,
@@ -174,7 +184,7 @@ Status checkScene(const Scene& scene, std::size_t textureCount) {
     for (const AnimationChannel& channel : scene.animations[i].channels)
       LUCERNA_TRY_VOID(checkChannel(channel, i, scene.nodes.size()));
   if (!finite(scene.ambient)) return error(ErrorKind::Input, "the ambient light is not finite");
-  return {};
+  return checkBake(scene.bake);
 }
 
 }  // namespace lucerna::scene

@@ -15,6 +15,7 @@
 #include "core/math/bounds.hpp"
 #include "core/result.hpp"
 #include "image/image.hpp"
+#include "scene/bake_hints.hpp"
 #include "scene/deform.hpp"
 #include "scene/light.hpp"
 #include "scene/material.hpp"
@@ -145,6 +146,7 @@ struct Scene {
   Background background;
   vec3 ambient{0.f};     // radiance-like: a white surface shows it (IA of the Phong model)
   float exposure = 0.f;  // EV: linear colours are multiplied by 2^exposure before tone mapping
+  BakeHints bake;
   // What was repaired or left out while loading, one sentence each.
   std::vector<std::string> warnings;
 

@@ -143,7 +143,7 @@ Status enter(const fs::path& path, SceneLoad& load) {
 
 Status apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneLoad& load) {
   if (!root.object({"$schema", "lucerna", "include", "materials", "lights", "lightSettings",
-                    "cameras", "background", "ambient", "exposure", "animation"}))
+                    "cameras", "background", "ambient", "exposure", "animation", "bake"}))
     return {};
   root.format(kFormat);
   if (root.has("include")) LUCERNA_TRY_VOID(readIncludes(root.at("include"), folder, scene, load));
@@ -157,6 +157,7 @@ Status apply(const JsonValue& root, const fs::path& folder, Scene& scene, SceneL
   pictures.load();
   root.read("ambient", scene.ambient, kNotNegative);
   root.read("exposure", scene.exposure, {-30.f, 30.f, "EV"});
+  if (root.has("bake")) readBake(root.at("bake"), scene.bake);
   return {};
 }
 

@@ -58,6 +58,7 @@ void readMaterials(const JsonValue& materials, JsonPictures& pictures, Scene& sc
 void readLights(const JsonValue& lights, Scene& scene);
 void readLightSettings(const JsonValue& settings, Scene& scene);
 void readCameras(const JsonValue& cameras, Scene& scene);
+void readBake(const JsonValue& from, BakeHints& bake);
 void readBackground(const JsonValue& from, JsonPictures& pictures, Background& background);
 
 }  // namespace lucerna::scene

@@ -78,6 +78,9 @@ scene::ImportedScene importedScene() {
   channel.times = {0.f, 1.f};
   channel.values = {vec4(0.f), vec4(1.f)};
   scene.warnings.emplace_back("a warning");
+  scene.bake.area.emplace();
+  scene.bake.patchTolerance = 1.f;
+  scene.bake.mapSize = 2048;
   return imported;
 }
 

@@ -17,21 +17,6 @@ bool finite(vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// A node at `position` that looks along `direction`, below `parent`.
-std::uint32_t addLookingNode(Scene& scene, const NodesByName& nodes, const std::string& name,
-                             vec3 position, vec3 direction, vec3 up) {
-  Node node;
-  node.name = name;
-  if (const auto parent = nodes.find(name); parent != nodes.end()) node.parent = parent->second;
-  node.translation = finite(position) ? position : vec3(0.f);
-  if (!finite(direction) || glm::length(direction) < 1e-6f) direction = vec3(0.f, 0.f, -1.f);
-  direction = glm::normalize(direction);
-  if (!finite(up) || glm::length(glm::cross(direction, up)) < 1e-4f)
-    up = std::abs(direction.y) < 0.9f ? vec3(0.f, 1.f, 0.f) : vec3(1.f, 0.f, 0.f);
-  node.rotation = glm::quatLookAt(direction, glm::normalize(up));
-  return addNode(scene, node);
-}
-
 bool setKind(const aiLight& source, Light& light) {
   switch (source.mType) {
     case aiLightSource_DIRECTIONAL:
@@ -48,15 +33,9 @@ bool setKind(const aiLight& source, Light& light) {
   }
 }
 
-// These files' intensity 1 gives a white surface brightness 1, so pi of ours. A colour brighter
-// than 1 becomes intensity.
 void setStrength(const aiLight& source, Light& light) {
-  vec3 color(source.mColorDiffuse.r, source.mColorDiffuse.g, source.mColorDiffuse.b);
-  if (!finite(color)) color = vec3(0.f);
-  color = glm::max(color, vec3(0.f));
-  const float brightest = std::max({color.x, color.y, color.z, 1.f});
-  light.color = color / brightest;
-  light.intensity = brightest * kPi;
+  const vec3 color(source.mColorDiffuse.r, source.mColorDiffuse.g, source.mColorDiffuse.b);
+  setRelativeStrength(finite(color) ? glm::max(color, vec3(0.f)) : vec3(0.f), light);
   const vec3 attenuation(source.mAttenuationConstant, source.mAttenuationLinear,
                          source.mAttenuationQuadratic);
   const bool usable = finite(attenuation) && attenuation.x >= 0.f && attenuation.y >= 0.f &&
@@ -104,6 +83,26 @@ void addChannel(Animation& animation, std::uint32_t node, AnimationPath path, co
 }
 
 }  // namespace
+
+std::uint32_t addLookingNode(Scene& scene, const NodesByName& nodes, const std::string& name,
+                             vec3 position, vec3 direction, vec3 up) {
+  Node node;
+  node.name = name;
+  if (const auto parent = nodes.find(name); parent != nodes.end()) node.parent = parent->second;
+  node.translation = finite(position) ? position : vec3(0.f);
+  if (!finite(direction) || glm::length(direction) < 1e-6f) direction = vec3(0.f, 0.f, -1.f);
+  direction = glm::normalize(direction);
+  if (!finite(up) || glm::length(glm::cross(direction, up)) < 1e-4f)
+    up = std::abs(direction.y) < 0.9f ? vec3(0.f, 1.f, 0.f) : vec3(1.f, 0.f, 0.f);
+  node.rotation = glm::quatLookAt(direction, glm::normalize(up));
+  return addNode(scene, node);
+}
+
+void setRelativeStrength(vec3 color, Light& light) {
+  const float brightest = std::max({color.x, color.y, color.z, 1.f});
+  light.color = color / brightest;
+  light.intensity = brightest * kPi;
+}
 
 void convertLights(const aiScene& source, const NodesByName& nodes, Scene& scene) {
   for (unsigned i = 0; i < source.mNumLights; ++i) {

@@ -80,7 +80,7 @@ Mesh looseMesh(const aiMesh& source) {
 class Conversion {
  public:
   Conversion(const aiScene& source, const FileConventions& file)
-      : source_(source), materials_(convertMaterials(source, file, result_)) {}
+      : source_(source), file_(file), materials_(convertMaterials(source, file, result_)) {}
 
   ImportedScene run(const mat4& metresFromFile) {
     convertMeshes();
@@ -88,6 +88,7 @@ class Conversion {
     convertLights(source_, nodes_, result_.scene);
     const float unit = glm::length(vec3(metresFromFile[0]));  // m; attenuation is in file units
     for (Light& light : result_.scene.lights) light.attenuation /= vec3(1.f, unit, unit * unit);
+    if (file_.lights) convertEdges(source_, nodes_, *file_.lights, result_.scene);
     convertCameras(source_, nodes_, result_.scene);
     convertAnimations(source_, nodes_, result_.scene);
     return std::move(result_);
@@ -101,7 +102,8 @@ class Conversion {
     for (unsigned i = 0; i < source_.mNumMeshes; ++i) {
       const aiMesh& mesh = *source_.mMeshes[i];
       for (unsigned f = 0; f < mesh.mNumFaces; ++f)
-        if (mesh.mFaces[f].mNumIndices != 3) ++otherPrimitives;
+        if (mesh.mFaces[f].mNumIndices != 3 && !(file_.lights && mesh.mFaces[f].mNumIndices == 2))
+          ++otherPrimitives;
       if (mesh.HasBones()) ++skinned;
       result_.scene.meshes.push_back(buildMesh(looseMesh(mesh), dropped));
     }
@@ -152,6 +154,7 @@ class Conversion {
   }
 
   const aiScene& source_;
+  const FileConventions& file_;
   ImportedScene result_;
   std::vector<std::uint32_t> materials_;
   NodesByName nodes_;
@@ -245,7 +248,13 @@ Result<ImportedScene> readWithAssimp(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  const FileConventions file = conventionsOf(extension);
+  FileConventions file = conventionsOf(extension);
+  std::optional<LightsIni> lights;
+  if (file.obj) {
+    LUCERNA_TRY(found, readLightsIni(path));
+    lights = std::move(found);
+    file.lights = lights ? &*lights : nullptr;
+  }
   // Never freed: the worker ends after this file, and freeing a large scene takes longer than
   // reading it.
   static auto* importer = new Assimp::Importer;

@@ -1,5 +1,6 @@
 #include "scene/import/import.hpp"
 
+#include "core/text.hpp"
 #include "core/worker_program.hpp"
 #include "scene/import/import_textures.hpp"
 #include "scene/import/scene_stream.hpp"
@@ -38,7 +39,9 @@ Result<Scene> importScene(const std::filesystem::path& path) {
                  "or export it again, for example as glTF",
                  path.string(), imported.error().message);
   answer.out = {};
-  loadTextures(*imported, path.parent_path());
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (equalIgnoringCase(path.extension().string(), ".obj")) addEmissionMaps(*imported, folder);
+  loadTextures(*imported, folder);
   Scene scene = std::move(imported->scene);
   if (scene.objects.empty())
     return error(ErrorKind::Input,

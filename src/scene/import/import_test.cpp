@@ -394,6 +394,8 @@ ImportedScene smallScene() {
   scene.objects.push_back({0, 0, 0, {}});
   scene.lights.emplace_back().node = 0;
   scene.warnings.push_back("w");
+  scene.bake.area.emplace();
+  scene.bake.mapSize = 512;
   return imported;
 }
 
@@ -403,6 +405,7 @@ TEST(SceneStream, ComesBackAsItWas) {
   EXPECT_EQ(writeStream(*back), writeStream(smallScene()));
   EXPECT_EQ(back->scene.materials[0].name, "m");
   EXPECT_EQ(back->textures[0].path, "a.png");
+  EXPECT_EQ(back->scene.bake, smallScene().scene.bake);
 }
 
 TEST(SceneStream, EveryCutIsRefused) {
@@ -430,6 +433,9 @@ TEST(SceneStream, IndicesOutOfRangeAreRefused) {
   EXPECT_FALSE(readStream(writeStream(imported)));
   imported = smallScene();
   imported.scene.nodes[0].parent = 0;
+  EXPECT_FALSE(readStream(writeStream(imported)));
+  imported = smallScene();
+  imported.scene.bake.area->attenuation = 0.f;
   EXPECT_FALSE(readStream(writeStream(imported)));
 }
 

@@ -79,7 +79,7 @@ bool hasTransparentTexels(const Image& image) {
 class TextureLoading {
  public:
   TextureLoading(ImportedScene& imported, const fs::path& folder)
-      : imported_(imported), folder_(folder.empty() ? "." : folder) {}
+      : imported_(imported), folder_(folder) {}
 
   void run() {
     std::vector<std::size_t> tickets, alphaTickets;
@@ -158,6 +158,31 @@ fs::path findTexture(const fs::path& folder, const std::string& name) {
   for (const char* sub : {"", "textures", "Textures", "texture", "tex", "maps"})
     if (fs::path found = findIn(folder / sub, file); !found.empty()) return found;
   return findIn((folder / given).parent_path(), file);
+}
+
+void addEmissionMaps(ImportedScene& imported, const fs::path& folder) {
+  std::map<std::uint32_t, std::uint32_t> maps;  // by the albedo's texture; kNoTexture: it has none
+  const auto mapOf = [&](std::uint32_t albedo) {
+    ImportedTexture map = imported.textures[albedo];
+    const fs::path picture = findTexture(folder, map.path);
+    std::error_code code;
+    const fs::path file = fs::absolute(picture, code).string() + "-map";
+    if (picture.empty() || !fs::is_regular_file(file, code)) return kNoTexture;
+    map.path = file.lexically_relative(fs::absolute(folder, code)).string();
+    map.alphaPath.clear();
+    imported.textures.push_back(std::move(map));
+    return static_cast<std::uint32_t>(imported.textures.size() - 1);
+  };
+  for (Material& material : imported.scene.materials) {
+    const TextureSlot& albedo = material.albedoTexture;
+    if (!albedo.used() || material.emissiveTexture.used()) continue;
+    const auto [known, isNew] = maps.emplace(albedo.texture, kNoTexture);
+    if (isNew) known->second = mapOf(albedo.texture);
+    if (known->second == kNoTexture) continue;
+    material.emissiveTexture = albedo;
+    material.emissiveTexture.texture = known->second;
+    if (material.emissive == vec3(0.f)) material.emissive = vec3(1.f);
+  }
 }
 
 void loadTextures(ImportedScene& imported, const fs::path& folder) {

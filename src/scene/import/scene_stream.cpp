@@ -55,6 +55,10 @@ const auto animationFields = [](auto& a, auto& animation) {
   });
 };
 
+const auto bakeFields = [](auto& a, auto& b) {
+  a(b.maps), a(b.patches), a(b.areaLights), a(b.area), a(b.patchTolerance), a(b.mapSize);
+};
+
 const auto textFields = [](auto& a, auto& text) { a(text); };
 
 const auto fields = [](auto& a, auto& imported) {
@@ -69,6 +73,7 @@ const auto fields = [](auto& a, auto& imported) {
   a.list(scene.animations, animationFields);
   a.list(scene.warnings, textFields);
   a(scene.ambient);
+  bakeFields(a, scene.bake);
 };
 // NOLINTEND(readability-identifier-naming)
 
