@@ -6,6 +6,7 @@
 
 #include "core/check.hpp"
 #include "trace/light_sampling.hpp"
+#include "trace/low_discrepancy.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -24,6 +25,10 @@ float distanceTo(const Aabb& box, vec3 p) {
   return glm::length(glm::max(glm::max(box.min - p, p - box.max), vec3(0.f)));
 }
 
+float distanceBetween(const Aabb& a, const Aabb& b) {
+  return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), vec3(0.f)));
+}
+
 // The size of the light, seen as a ball around its place.
 float ballOf(const PlacedLight& light) {
   return light.kind == LightKind::Directional ? 0.f : light.radius;
@@ -34,49 +39,43 @@ bool hasSize(const PlacedLight& light) {
 }
 
 // Points that share what the light gives, the same for all samples of the block: on a spot light's
-// disc, on the disc of a sphere that faces the block, in the cone of a directional light. Of a
-// square of n points the first four are one of each quarter.
+// disc, on the disc of a sphere that faces the block, in the cone of a directional light. Seen
+// along any edge they lie in many lines rather than few, so that penumbrae have many steps, and the
+// first four lie in one quarter each.
 std::vector<PlacedLight> pointsOn(const PlacedLight& light, int count, vec3 blockW) {
   if (!hasSize(light) || count == 1) return {light};
-  const int side = static_cast<int>(std::lround(std::sqrt(count)));
-  CHECK(side * side == count && side % 2 == 0, "{} points make no square of an even side", count);
-  std::vector<PlacedLight> points;
   const bool directional = light.kind == LightKind::Directional;
   const vec3 axis =
       light.kind == LightKind::Point ? glm::normalize(blockW - light.positionW) : light.directionW;
   const trace::Frame frame(std::isfinite(axis.x) ? axis : vec3(0.f, 1.f, 0.f));
   const float radius =
       directional ? std::tan(0.5f * std::min(light.angle, 0.5f * kPi)) : light.radius;
-  const auto add = [&](int x, int y) {
-    const vec2 u = (vec2(x, y) + 0.5f) / static_cast<float>(side);
-    const vec2 p = radius * trace::discPoint(u);
-    PlacedLight point = light;
+  std::vector<PlacedLight> points(static_cast<std::size_t>(count), light);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    constexpr std::uint32_t kSeed = 1;
+    const vec2 p =
+        radius * trace::discPoint(trace::lowDiscrepancyPoint(static_cast<std::uint32_t>(i), kSeed));
+    PlacedLight& point = points[i];
     if (directional)
       point.directionW = glm::normalize(axis + frame.x * p.x + frame.y * p.y);
     else
       point.positionW += frame.x * p.x + frame.y * p.y;
     point.intensity /= static_cast<float>(count);
     point.radius = point.angle = 0.f;
-    points.push_back(point);
-  };
-  // From the middle of each quarter outwards.
-  const int half = side / 2, middle = half / 2;
-  for (const int y : {middle, half + middle})
-    for (const int x : {middle, half + middle}) add(x, y);
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x)
-      if (x % half != middle || y % half != middle) add(x, y);
+  }
   return points;
 }
 
 }  // namespace
 
-BlockLighter::BlockLighter(const ShadowTracer& tracer, const Occluders& occluders, int lightSamples,
-                           float sceneDiagonal)
+BlockLighter::BlockLighter(const ShadowTracer& tracer, const Occluders& occluders,
+                           const Emitters& emitters, const LighterSettings& settings,
+                           const scene::Scene& scene)
     : tracer_(tracer),
       occluders_(occluders),
-      lightSamples_(lightSamples),
-      sceneDiagonal_(sceneDiagonal) {}
+      emitters_(emitters),
+      settings_(settings),
+      scene_(scene) {}
 
 bool BlockLighter::mayLight(const Samples& samples, const PlacedLight& light) const {
   // How far the directions to the light may be below the horizon of the block's mean normal.
@@ -103,12 +102,14 @@ bool BlockLighter::mayLight(const Samples& samples, const PlacedLight& light) co
 }
 
 // weights_: what each sample gets of the point's intensity where nothing is in the way.
-void BlockLighter::shade(const Samples& s, const PlacedLight& p) {
-  const std::size_t count = s.size();
-  weights_.resize(count);
-  float* weights = weights_.data();
-  const float *x = s.x.data(), *y = s.y.data(), *z = s.z.data();
-  const float *nx = s.nx.data(), *ny = s.ny.data(), *nz = s.nz.data();
+void BlockLighter::shade(const Samples& s, const PlacedLight& p, Tile range) {
+  const std::size_t count = range.count;
+  weights_.resize(s.size());
+  float* weights = weights_.data() + range.first;
+  const float *x = s.x.data() + range.first, *y = s.y.data() + range.first,
+              *z = s.z.data() + range.first;
+  const float *nx = s.nx.data() + range.first, *ny = s.ny.data() + range.first,
+              *nz = s.nz.data() + range.first;
   if (p.kind == LightKind::Directional) {
     const vec3 l = -p.directionW;
     for (std::size_t i = 0; i < count; ++i)
@@ -127,20 +128,33 @@ void BlockLighter::shade(const Samples& s, const PlacedLight& p) {
     weights[i] = std::max(cosine, 0.f) * window * window / (a.x + a.y * d + a.z * d * d);
   }
   if (p.kind != LightKind::Spot) return;
+  // As coneFactor() of scene/light.hpp.
   const vec3 axis = p.directionW;
+  const float outer = p.cosOuter, slope = 1.f / std::max(p.cosInner - p.cosOuter, 1e-3f);
+  const bool lambert = p.exponent == 1.f;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float vx = x[i] - from.x, vy = y[i] - from.y, vz = z[i] - from.z;
+    const float distance = std::sqrt(vx * vx + vy * vy + vz * vz);
+    const float cosine = (vx * axis.x + vy * axis.y + vz * axis.z) / std::max(distance, 1e-6f);
+    const float ramp = std::min(std::max((cosine - outer) * slope, 0.f), 1.f);
+    weights[i] *= ramp * ramp * (lambert ? std::max(cosine, 0.f) : 1.f);
+  }
+  if (p.exponent == 0.f || lambert) return;
   for (std::size_t i = 0; i < count; ++i) {
     if (weights[i] == 0.f) continue;
     const vec3 v = vec3(x[i], y[i], z[i]) - from;
-    weights[i] *= coneFactor(p, glm::dot(v, axis) / std::max(glm::length(v), 1e-6f));
+    const float cosine = glm::dot(v, axis) / std::max(glm::length(v), 1e-6f);
+    weights[i] *= std::pow(std::max(cosine, 0.f), p.exponent);
   }
 }
 
-// lit_ and rays_: the samples that the point may light, of those in `among` (all if it is empty).
-void BlockLighter::collect(const Samples& s, const PlacedLight& p,
+// Appends to lit_ and rays_ the samples of the range that the point may light, of those in `among`
+// (all if it is empty).
+void BlockLighter::collect(const Samples& s, const PlacedLight& p, Tile range,
                            std::span<const std::uint32_t> among) {
-  lit_.clear();
+  const std::size_t first = lit_.size();
   if (among.empty()) {
-    for (std::uint32_t i = 0; i < s.size(); ++i)
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
       if (weights_[i] > 0.f) lit_.push_back(i);
   } else {
     for (const std::uint32_t i : among)
@@ -148,8 +162,8 @@ void BlockLighter::collect(const Samples& s, const PlacedLight& p,
   }
   rays_.resize(lit_.size());
   const bool directional = p.kind == LightKind::Directional;
-  const vec3 back = -p.directionW * sceneDiagonal_;
-  for (std::size_t i = 0; i < lit_.size(); ++i) {
+  const vec3 back = -p.directionW * settings_.sceneDiagonal;
+  for (std::size_t i = first; i < lit_.size(); ++i) {
     const std::size_t at = lit_[i];
     const vec3 to(s.x[at], s.y[at], s.z[at]);
     const vec3 from = directional ? to + back : p.positionW;
@@ -165,8 +179,10 @@ void BlockLighter::collect(const Samples& s, const PlacedLight& p,
 void BlockLighter::addPoint(const Samples& samples, const PlacedLight& point, bool clear,
                             std::span<const std::uint32_t> among) {
   auto start = Clock::now();
-  shade(samples, point);
-  collect(samples, point, among);
+  const Tile all{.first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = {}};
+  shade(samples, point, all);
+  lit_.clear();
+  collect(samples, point, all, among);
   shares_.assign(lit_.size(), vec3(1.f));
   counters.pairs += lit_.size();
   counters.shadingSeconds += secondsSince(start);
@@ -189,8 +205,9 @@ void BlockLighter::addPoint(const Samples& samples, const PlacedLight& point, bo
 bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) const {
   if (!samples.planar) return false;
   if (light.kind == LightKind::Directional)
-    return !occluders_.anyIn(shaftAlong(
-        -light.directionW, std::sin(0.5f * std::min(light.angle, kPi)), sceneDiagonal_, samples));
+    return !occluders_.anyIn(shaftAlong(-light.directionW,
+                                        std::sin(0.5f * std::min(light.angle, kPi)),
+                                        settings_.sceneDiagonal, samples));
   return !occluders_.anyIn(shaftFrom(light.positionW, ballOf(light), samples));
 }
 
@@ -198,7 +215,8 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   const auto start = Clock::now();
   const bool clear = isClear(samples, light);
   counters.tracingSeconds += secondsSince(start);
-  const std::vector<PlacedLight> points = pointsOn(light, lightSamples_, samples.boundsW.center());
+  const std::vector<PlacedLight> points =
+      pointsOn(light, settings_.lightSamples, samples.boundsW.center());
   const std::size_t first =
       points.size() == 1 ? 1 : std::min<std::size_t>(kFirstPoints, points.size());
   light_.assign(samples.size(), vec3(0.f));
@@ -222,15 +240,114 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   for (std::size_t i = 0; i < samples.size(); ++i) sums_[i] += light_[i];
 }
 
-void BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights,
+// False only if nothing of the node reaches the tile.
+bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
+                            const EmitterNode& node) const {
+  if (samples.planar) {
+    // The corner of the box that is highest above the tile's plane.
+    const vec3 highest = glm::mix(node.boxW.min, node.boxW.max, glm::step(vec3(0.f), samples.axis));
+    // A cell's surface reaches around its middle.
+    if (glm::dot(samples.axis, highest - samples.corners[0]) + node.size <= 0.f) return false;
+  }
+  if (node.cosine <= 0.f) return true;
+  // Whether all directions from the node to the tile are behind all of its normals: both as balls.
+  const vec3 to = tile.boundsW.center() - node.boxW.center();
+  const float distance = glm::length(to);
+  const float ball = 0.5f * (tile.boundsW.diagonal() + node.boxW.diagonal()) + node.size;
+  if (distance <= ball) return true;
+  const float sinSpread = std::sqrt(std::max(1.f - node.cosine * node.cosine, 0.f));
+  const float sinBall = ball / distance;
+  if (sinSpread + sinBall >= 1.f) return true;
+  return glm::dot(to / distance, node.axis) > -(sinSpread + sinBall);
+}
+
+void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission) {
+  const PlacedLight point = lightOf(emission, scene_, settings_.emitterReach);
+  shade(samples, point, tile);
+  const std::size_t first = lit_.size();
+  collect(samples, point, tile, {});
+  values_.resize(lit_.size());
+  for (std::size_t i = first; i < lit_.size(); ++i)
+    values_[i] = point.intensity * weights_[lit_[i]];
+  constexpr std::size_t kMostRays = 4096;
+  if (lit_.size() >= kMostRays) flush();
+}
+
+void BlockLighter::flush() {
+  const auto start = Clock::now();
+  counters.pairs += lit_.size();
+  counters.rays += lit_.size();
+  shares_.resize(lit_.size());
+  tracer_.trace(rays_, shares_);
+  for (std::size_t i = 0; i < lit_.size(); ++i) sums_[lit_[i]] += values_[i] * shares_[i];
+  lit_.clear();
+  values_.clear();
+  rays_.resize(0);
+  counters.tracingSeconds += secondsSince(start);
+}
+
+// A cell or a node that is small enough for its distance: one point. A cell that is not: a grid of
+// points.
+void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
+                               float distance) {
+  constexpr int kMostSplit = 8;  // points along each side of a cell
+  const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
+  const int split =
+      node.isCell()
+          ? static_cast<int>(std::clamp(std::ceil(wanted), 1.f, static_cast<float>(kMostSplit)))
+          : 1;
+  Emission part = node.emission;
+  part.intensity /= static_cast<float>(split * split);
+  for (int y = 0; y < split; ++y)
+    for (int x = 0; x < split; ++x) {
+      const vec2 at = (vec2(x, y) + 0.5f) / static_cast<float>(split) - 0.5f;
+      part.positionW = node.emission.positionW + node.alongU * at.x + node.alongV * at.y;
+      addEmission(samples, tile, part);
+    }
+}
+
+void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
+  const auto start = Clock::now();
+  const double tracing = counters.tracingSeconds;
+  const std::vector<EmitterNode>& nodes = emitters_.nodes;
+  stack_.assign(1, 0);
+  while (!stack_.empty()) {
+    const std::uint32_t at = stack_.back();
+    stack_.pop_back();
+    const EmitterNode& node = nodes[at];
+    const float distance = distanceBetween(node.boxW, tile.boundsW);
+    if (distance >= settings_.emitterReach || !mayLight(samples, tile, node)) continue;
+    const bool isOne = node.isCell() || (node.emission.normalW != vec3(0.f) &&
+                                         node.size <= settings_.emitterSize * distance);
+    if (isOne) {
+      lightByNode(samples, tile, node, distance);
+      continue;
+    }
+    stack_.push_back(node.right);
+    stack_.push_back(at + 1);
+  }
+  if (!lit_.empty()) flush();
+  counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
+}
+
+void BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
                          std::span<vec3> texels) {
   sums_.assign(samples.size(), vec3(0.f));
+  lit_.clear();
+  values_.clear();
+  rays_.resize(0);
   bool any = false;
   for (const PlacedLight& light : lights)
     if (mayLight(samples, light)) {
       lightBy(samples, light);
       any = true;
     }
+  if (emitters && !emitters_.nodes.empty()) {
+    lit_.clear();
+    rays_.resize(0);
+    for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
+    any = true;
+  }
   if (!any) return;
   for (std::size_t i = 0; i < samples.size();) {
     const std::size_t first = i;

@@ -3,9 +3,11 @@
 
 #include <chrono>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "bake/emitters.hpp"
 #include "bake/light_set.hpp"
 #include "bake/occluders.hpp"
 #include "bake/samples.hpp"
@@ -27,39 +29,63 @@ struct LightCounters {
   }
 };
 
+struct LighterSettings {
+  // Points on each light that has a size, where the first four do not agree on what they see; a
+  // power of two from 4 on, or 1: its middle.
+  int lightSamples = 16;
+  // Largest size of emitting surface that one ray stands for, as a share of its distance.
+  float emitterSize = 0.25f;
+  float emitterReach = std::numeric_limits<float>::infinity();  // m
+  float sceneDiagonal = 1.f;                                    // m
+};
+
 // One thread's.
 class BlockLighter {
  public:
-  // lightSamples: points on each light that has a size, where the first four do not agree on what
-  // they see; an even number squared, or 1: its middle. Tracer and occluders outlive it.
-  BlockLighter(const ShadowTracer& tracer, const Occluders& occluders, int lightSamples,
-               float sceneDiagonal);
+  // Tracer, occluders and emitters outlive it.
+  BlockLighter(const ShadowTracer& tracer, const Occluders& occluders, const Emitters& emitters,
+               const LighterSettings& settings, const scene::Scene& scene);
 
-  // Adds the mean irradiance (scene/light.hpp) to each texel of the block: row by row.
-  void light(const Samples& samples, std::span<const scene::PlacedLight> lights,
+  // Adds the mean irradiance (scene/light.hpp) to each texel of the block: row by row. Of emitting
+  // surfaces only if `emitters` is set.
+  void light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
              std::span<vec3> texels);
 
   LightCounters counters;
 
  private:
+  using Tile = Samples::Tile;  // a range of samples
+
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
   void addPoint(const Samples& samples, const scene::PlacedLight& point, bool clear,
                 std::span<const std::uint32_t> among);
-  void shade(const Samples& samples, const scene::PlacedLight& point);
-  void collect(const Samples& samples, const scene::PlacedLight& point,
+  void shade(const Samples& samples, const scene::PlacedLight& point, Tile range);
+  void collect(const Samples& samples, const scene::PlacedLight& point, Tile range,
                std::span<const std::uint32_t> among);
+
+  // Emitting surfaces, tile by tile.
+  bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
+  void lightByEmitters(const Samples& samples, const Tile& tile);
+  void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
+                   float distance);
+  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission);
+  void flush();
 
   const ShadowTracer& tracer_;
   const Occluders& occluders_;
-  int lightSamples_;
-  float sceneDiagonal_;  // m
+  const Emitters& emitters_;
+  LighterSettings settings_;
+  const scene::Scene& scene_;
   // Of one point of a light:
-  std::vector<float> weights_;      // of its intensity that each sample gets, before shadows
-  std::vector<std::uint32_t> lit_;  // samples that it may light
-  ShadowRays rays_;                 // to those
-  std::vector<vec3> shares_;        // of the light that they let through
+  std::vector<float> weights_;  // of its intensity that each sample gets, before shadows
+  // Of the rays that are to be traced together:
+  std::vector<std::uint32_t> lit_;  // samples that they lead to
+  std::vector<vec3> values_;        // what these get if nothing is in the way; of emitters
+  ShadowRays rays_;
+  std::vector<vec3> shares_;          // of the light that they let through
+  std::vector<std::uint32_t> stack_;  // nodes of emitters
   // Of a light, one a sample:
   std::vector<vec3> light_;
   std::vector<float> seen_;          // of the points asked

@@ -76,7 +76,8 @@ class EmbreeTracer final : public ShadowTracer {
     alignas(64) RTCRay16 packet;
     alignas(64) std::array<int, kPacket> valid;
     for (unsigned i = 0; i < kPacket; ++i) {
-      packet.tnear[i] = packet.time[i] = 0.f;
+      packet.tnear[i] = kClearOfLight;
+      packet.time[i] = 0.f;
       packet.mask[i] = ~0u;
       packet.id[i] = i;
       packet.flags[i] = 0;

@@ -23,7 +23,9 @@ std::vector<Unit> shareOut(std::span<const Block> blocks) {
 }
 
 // Leaves the groups that are asked for; what is always on is one of the name "always-on".
-Status choose(std::vector<LightGroup>& groups, std::span<const std::string> wanted) {
+Status choose(Plan& plan) {
+  std::vector<LightGroup>& groups = plan.groups;
+  const std::vector<std::string>& wanted = plan.settings.groups;
   if (wanted.empty()) return {};
   std::vector<std::string> names;
   for (const LightGroup& group : groups)
@@ -35,9 +37,10 @@ Status choose(std::vector<LightGroup>& groups, std::span<const std::string> want
                    didYouMean(name, names), fmt::join(names, ", "));
   for (std::size_t i = groups.size(); i-- > 0;) {
     if (std::ranges::find(wanted, names[i]) != wanted.end()) continue;
-    if (i == 0)
+    if (i == 0) {
       groups[i].lights.clear();
-    else
+      plan.alwaysOn = false;
+    } else
       groups.erase(groups.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return {};
@@ -54,6 +57,7 @@ void addWarnings(Plan& plan) {
         "a lower --density would hold them",
         charts.shrunk));
   const bool dark =
+      !plan.emittersShine() &&
       std::ranges::all_of(plan.groups, [](const LightGroup& g) { return g.lights.empty(); });
   if (dark) plan.warnings.push_back("the scene has no lights to bake; the maps will be black");
 }
@@ -85,7 +89,7 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
     addBlocks(plan.blocks, plan.charts.charts[i], i);
   plan.units = shareOut(plan.blocks);
   plan.groups = groupLights(scene, settings.reach);
-  LUCERNA_TRY_VOID(choose(plan.groups, settings.groups));
+  LUCERNA_TRY_VOID(choose(plan));
   plan.hash = hashOf(plan);
   addWarnings(plan);
   return plan;

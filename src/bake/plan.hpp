@@ -21,8 +21,9 @@ enum class Engine { Embree, Octree };
 
 // How finely light is sampled.
 struct Sampling {
-  int positions = 1;     // along each side of a texel
-  int lightSamples = 4;  // points on a light with a size, see BlockLighter
+  int positions = 1;          // along each side of a texel
+  int lightSamples = 4;       // points on a light with a size, see LighterSettings
+  float emitterSize = 0.25f;  // of an emitting surface for one ray / its distance
 };
 
 struct BakeSettings {
@@ -52,7 +53,11 @@ struct Plan {
   std::uint64_t hash = 0;          // of everything that the light depends on
   std::vector<std::string> warnings;
 
+  bool alwaysOn = true;  // bakes lights without a group, and emitting surfaces
+
   std::uint64_t texels() const;  // of all charts' rectangles
+  // Whether emitting surfaces light others.
+  bool emittersShine() const { return alwaysOn && world.scene->bake.areaLights; }
 };
 
 // The scene outlives the plan. Errors: a scene without triangles (ErrorKind::Input), maps that

@@ -47,6 +47,8 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.pack.gap);
   w(s.sampling.positions);
   w(s.sampling.lightSamples);
+  w(s.sampling.emitterSize);
+  w(s.reach);
   w(static_cast<int>(s.engine));
 }
 
@@ -62,6 +64,11 @@ std::uint64_t hashOf(const Plan& plan) {
   w(kVersion);
   add(w, plan.settings);
   const scene::Scene& scene = *plan.world.scene;
+  w(plan.emittersShine());
+  if (scene.bake.area)
+    for (const float f :
+         {scene.bake.area->cut, scene.bake.area->attenuation, scene.bake.area->intensity})
+      w(f);
   for (const scene::Material& material : scene.materials) add(w, material);
   for (const WorldObject& object : plan.world.objects) {
     w(object.object);

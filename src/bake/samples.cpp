@@ -12,7 +12,8 @@ namespace {
 
 using glm::dvec2;
 
-constexpr int kTile = 4;  // texels; neighbours in a tile are neighbours in the list
+// Texels; neighbours in a tile are neighbours in the list.
+constexpr int kTile = 8, kPacketTile = 4;
 
 // Twice the signed area.
 double cross(dvec2 a, dvec2 b) {
@@ -86,17 +87,14 @@ class Polygon {
   std::size_t count_ = 0;
 };
 
-// Clear of the surface by some rounding errors of its place; as much as the reference does.
-vec3 lifted(vec3 positionW, vec3 normalW) {
-  const vec3 size = glm::abs(positionW);
-  return positionW + normalW * (std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-16f);
-}
-
 void clear(Samples& samples) {
   for (auto* list : {&samples.x, &samples.y, &samples.z, &samples.nx, &samples.ny, &samples.nz})
     list->clear();
   samples.texels.clear();
   samples.triangles.clear();
+  samples.barycentrics.clear();
+  samples.areas.clear();
+  samples.tiles.clear();
   samples.boundsW = {};
   samples.axis = vec3(0.f);
   samples.cosine = -1.f;
@@ -146,6 +144,11 @@ void findBounds(Samples& s, vec3 along) {
 }
 
 }  // namespace
+
+float liftAt(vec3 positionW) {
+  const vec3 size = glm::abs(positionW);
+  return std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-16f;
+}
 
 void addBlocks(std::vector<Block>& blocks, const Chart& chart, std::uint32_t index) {
   for (int y = 0; y < chart.size.y; y += kBlockSide)
@@ -236,7 +239,8 @@ void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& sample
   const auto at = [&](const std::array<vec3, 3>& v) {
     return v[0] * first + v[1] * second + v[2] * third;
   };
-  const vec3 p = lifted(at(surface.positionsW), surface.flatW);
+  vec3 p = at(surface.positionsW);
+  p += surface.flatW * liftAt(p);
   vec3 normal = at(surface.normalsW);
   const float length = glm::length(normal);
   normal = length > 1e-3f ? normal / length : surface.flatW;
@@ -248,6 +252,8 @@ void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& sample
   samples.nz.push_back(normal.z);
   samples.texels.push_back(texel);
   samples.triangles.push_back(found.triangle);
+  samples.barycentrics.push_back(found.barycentric);
+  samples.areas.push_back(found.area > 0.f ? found.area : 1.f / static_cast<float>(perTexel()));
 }
 
 void ChartSampler::emitTexel(const Block& block, ivec2 texel, Samples& samples) const {
@@ -257,13 +263,29 @@ void ChartSampler::emitTexel(const Block& block, ivec2 texel, Samples& samples) 
       emit(found, static_cast<std::uint16_t>(index), samples);
 }
 
-// Where a step along the chart's x leads on a triangle, in the world.
-vec3 ChartSampler::alongX(std::uint32_t triangle) const {
-  const auto& corners = chart_.corners[triangle];
-  const Barycentric barycentric(corners);
-  const dvec2 step = barycentric.at(barycentric.a + dvec2(1., 0.));
+ChartSampler::Steps ChartSampler::stepsOn(std::uint32_t triangle) const {
+  const Barycentric barycentric(chart_.corners[triangle]);
   const auto& p = surfaces_[triangle].positionsW;
-  return (p[1] - p[0]) * static_cast<float>(step.x) + (p[2] - p[0]) * static_cast<float>(step.y);
+  const auto step = [&](dvec2 by) {
+    const vec2 weights(barycentric.at(barycentric.a + by));
+    return (p[1] - p[0]) * weights.x + (p[2] - p[0]) * weights.y;
+  };
+  return {step({1., 0.}), step({0., 1.})};
+}
+
+void ChartSampler::emitTile(const Block& block, ivec2 corner, Samples& samples) const {
+  const ivec2 end = glm::min(corner + kTile, block.size);
+  Samples::Tile tile{
+      .first = static_cast<std::uint32_t>(samples.size()), .count = 0, .boundsW = {}};
+  for (int y = corner.y; y < end.y; y += kPacketTile)
+    for (int x = corner.x; x < end.x; x += kPacketTile)
+      for (int ty = y; ty < std::min(y + kPacketTile, end.y); ++ty)
+        for (int tx = x; tx < std::min(x + kPacketTile, end.x); ++tx)
+          emitTexel(block, {tx, ty}, samples);
+  for (std::size_t i = tile.first; i < samples.size(); ++i)
+    tile.boundsW.grow({samples.x[i], samples.y[i], samples.z[i]});
+  tile.count = static_cast<std::uint32_t>(samples.size()) - tile.first;
+  if (tile.count > 0) samples.tiles.push_back(tile);
 }
 
 void ChartSampler::sample(const Block& block, Samples& samples) {
@@ -276,11 +298,8 @@ void ChartSampler::sample(const Block& block, Samples& samples) {
   for (const std::uint32_t triangle : triangles) findInside(block, triangle);
   for (const std::uint32_t triangle : triangles) findBorder(block, triangle);
   for (int y = 0; y < block.size.y; y += kTile)
-    for (int x = 0; x < block.size.x; x += kTile)
-      for (int ty = y; ty < std::min(y + kTile, block.size.y); ++ty)
-        for (int tx = x; tx < std::min(x + kTile, block.size.x); ++tx)
-          emitTexel(block, {tx, ty}, samples);
-  findBounds(samples, samples.triangles.empty() ? vec3(0.f) : alongX(samples.triangles[0]));
+    for (int x = 0; x < block.size.x; x += kTile) emitTile(block, {x, y}, samples);
+  findBounds(samples, samples.triangles.empty() ? vec3(0.f) : stepsOn(samples.triangles[0]).x);
 }
 
 }  // namespace lucerna::bake

@@ -29,6 +29,14 @@ struct Samples {
   std::vector<std::uint16_t>
       texels;  // row * Block::size.x + column; samples of one follow each other
   std::vector<std::uint32_t> triangles;  // of the chart's list
+  std::vector<vec2> barycentrics;        // on those: weights of the second and third corner
+  std::vector<float> areas;              // texels^2 that each stands for
+  // Neighbours: the samples of 8 x 8 texels of the block.
+  struct Tile {
+    std::uint32_t first = 0, count = 0;
+    Aabb boundsW;
+  };
+  std::vector<Tile> tiles;  // those that have any
   Aabb boundsW;
   // Bounds of the normals: all lie within the angle of this cosine around the axis. -1: any.
   vec3 axis{0.f};
@@ -40,6 +48,10 @@ struct Samples {
   std::size_t size() const { return x.size(); }
 };
 
+// m that samples are clear of the surface: some rounding errors of such a place; as much as the
+// reference's rays.
+float liftAt(vec3 positionW);
+
 // Finds the samples of the blocks of one chart.
 class ChartSampler {
  public:
@@ -48,7 +60,15 @@ class ChartSampler {
 
   // A texel's samples are those of a regular grid that lie in one of the chart's triangles. Where
   // none does and yet the chart touches it: the middle of what it covers of the texel.
+  // The block may be a part of one that addBlocks() gives.
   void sample(const Block& block, Samples& samples);
+
+  // Where steps of a texel along the chart's x and y lead on a triangle of its list, m in the
+  // world.
+  struct Steps {
+    vec3 x, y;
+  };
+  Steps stepsOn(std::uint32_t triangle) const;
 
  private:
   // A place on a triangle of the chart's list.
@@ -64,9 +84,9 @@ class ChartSampler {
     vec3 flatW{0.f};                           // its own normal, unit
   };
   std::size_t perTexel() const { return static_cast<std::size_t>(side_) * side_; }
-  vec3 alongX(std::uint32_t triangle) const;
   void findInside(const Block& block, std::uint32_t triangle);
   void findBorder(const Block& block, std::uint32_t triangle);
+  void emitTile(const Block& block, ivec2 corner, Samples& samples) const;
   void emitTexel(const Block& block, ivec2 texel, Samples& samples) const;
   void emit(const Found& found, std::uint16_t texel, Samples& samples) const;
 

@@ -11,6 +11,9 @@
 
 namespace lucerna::bake {
 
+// What lies within this share of the way from the light is not in the way: a lamp's own surface.
+inline constexpr float kClearOfLight = 0x1p-12f;  // as the reference
+
 // Rays from a light to samples, in world space (m). Neighbours in the list should be neighbours in
 // the scene.
 struct ShadowRays {

@@ -76,12 +76,17 @@ std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const P
 LightScene::LightScene(const Plan& plan)
     : tracer(makeTracer(plan)),
       occluders(plan.world),
+      emitters(plan.emittersShine() ? findEmitters(plan.world, plan.charts.charts) : Emitters()),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
-      lighter_(*scene.tracer, scene.occluders, plan.settings.sampling.lightSamples,
-               scene.diagonal) {}
+      lighter_(*scene.tracer, scene.occluders, scene.emitters,
+               {.lightSamples = plan.settings.sampling.lightSamples,
+                .emitterSize = plan.settings.sampling.emitterSize,
+                .emitterReach = plan.settings.reach,
+                .sceneDiagonal = scene.diagonal},
+               *plan.world.scene) {}
 
 BlockLight UnitLighter::lightBlock(const Block& block) {
   const auto start = Clock::now();
@@ -100,7 +105,7 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
     result.touched[texel / 8] |= static_cast<std::uint8_t>(1u << (texel % 8));
   for (std::uint32_t g = 0; g < plan_.groups.size(); ++g) {
     texels_.assign(count, vec3(0.f));
-    lighter_.light(samples_, plan_.groups[g].lights, texels_);
+    lighter_.light(samples_, plan_.groups[g].lights, g == 0, texels_);
     if (std::ranges::all_of(texels_, [](vec3 v) { return v == vec3(0.f); })) continue;
     GroupLight& group = result.groups.emplace_back(GroupLight{.group = g, .rgb = {}});
     for (std::size_t i = 0; i < count; ++i)

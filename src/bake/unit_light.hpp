@@ -33,6 +33,7 @@ struct LightScene {
   explicit LightScene(const Plan& plan);
   std::unique_ptr<ShadowTracer> tracer;
   Occluders occluders;
+  Emitters emitters;
   float diagonal = 0.f;  // m
 };
 

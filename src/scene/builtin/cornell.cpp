@@ -91,6 +91,7 @@ Scene makeCornell(const CornellOptions& options) {
            1.2f);
   }
   addLamp(scene, root);
+  scene.bake.areaLights = false;  // the lamp stands for the surface that shines
   scene.ambient = vec3(options.ambient);
   scene.background.color = vec3(0);
   addCamera(scene, root, "main", {0, 0.99f, 3.87f}, {0, 0.99f, 0}, 39.3f);

@@ -1,0 +1,323 @@
+#include "bake/emitters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <optional>
+
+#include "bake/emission_texture.hpp"
+#include "core/check.hpp"
+#include "core/parallel.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+constexpr int kSamples = 4;  // along each side of a texel
+constexpr int kTile = 8;     // texels that are asked at once whether they shine
+
+float brightness(vec3 color) {
+  return color.x + color.y + color.z;
+}
+
+struct Cell {
+  Emission emission;
+  ivec2 texel{0};  // of its chart
+  vec3 alongU{0.f}, alongV{0.f};
+};
+
+// What a chart's object sends out.
+class Source {
+ public:
+  Source(const World& world, const Chart& chart,
+         const std::map<std::uint32_t, EmissionTexture>& textures)
+      : scene_(*world.scene),
+        object_(world.objects[chart.object]),
+        chart_(chart),
+        mesh_(scene_.meshes[scene_.objects[object_.object].mesh]),
+        material_(scene_.materials[scene_.objects[object_.object].material]) {
+    const scene::TextureSlot& slot = material_.emissiveTexture;
+    if (slot.used() && slot.coordinates == scene::Coordinates::Mesh && hasCoords())
+      texture_ = &textures.at(slot.texture);
+  }
+
+  // Whether anything may shine within the tile.
+  bool shines(const Samples& samples) const {
+    if (!texture_) return true;
+    vec2 low(std::numeric_limits<float>::infinity()), high(-low);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const vec2 uv = uvAt(samples.triangles[i], samples.barycentrics[i]);
+      low = glm::min(low, uv);
+      high = glm::max(high, uv);
+    }
+    return texture_->shines(low, high);
+  }
+  vec3 radiance(std::uint32_t triangle, vec2 barycentric) const {
+    return texture_ ? material_.emissive * texture_->at(uvAt(triangle, barycentric))
+                    : material_.emissive;
+  }
+
+ private:
+  bool hasCoords() const {
+    return !mesh_.texCoords[static_cast<std::size_t>(material_.emissiveTexture.texCoord)].empty();
+  }
+  vec2 uvAt(std::uint32_t triangle, vec2 barycentric) const {
+    const scene::TextureSlot& slot = material_.emissiveTexture;
+    const auto& coords = mesh_.texCoords[static_cast<std::size_t>(slot.texCoord)];
+    const std::uint32_t* corners = &mesh_.indices[3 * std::size_t{chart_.triangles[triangle]}];
+    const vec2 uv = coords[corners[0]] * (1.f - barycentric.x - barycentric.y) +
+                    coords[corners[1]] * barycentric.x + coords[corners[2]] * barycentric.y;
+    const vec2 scaled = slot.scale * uv;
+    const float sine = std::sin(slot.rotation), cosine = std::cos(slot.rotation);
+    // As KHR_texture_transform: counter-clockwise with v downwards.
+    return slot.offset +
+           vec2(cosine * scaled.x + sine * scaled.y, cosine * scaled.y - sine * scaled.x);
+  }
+
+  const scene::Scene& scene_;
+  const WorldObject& object_;
+  const Chart& chart_;
+  const scene::Mesh& mesh_;
+  const scene::Material& material_;
+  const EmissionTexture* texture_ = nullptr;
+};
+
+// The cells of one texel each within the samples of a tile.
+void addCells(std::vector<Cell>& cells, const Source& source, const ChartSampler& sampler,
+              const Samples& samples, const Block& tile) {
+  for (std::size_t i = 0; i < samples.size();) {
+    const std::uint16_t texel = samples.texels[i];
+    vec3 intensity(0.f), position(0.f), normal(0.f);
+    float weight = 0.f;
+    const ChartSampler::Steps steps = sampler.stepsOn(samples.triangles[i]);
+    for (; i < samples.size() && samples.texels[i] == texel; ++i) {
+      const ChartSampler::Steps s = sampler.stepsOn(samples.triangles[i]);
+      const float area = samples.areas[i] * glm::length(glm::cross(s.x, s.y));
+      const vec3 part = area * source.radiance(samples.triangles[i], samples.barycentrics[i]);
+      const float w = brightness(part);
+      intensity += part;
+      weight += w;
+      position += w * vec3(samples.x[i], samples.y[i], samples.z[i]);
+      normal += w * vec3(samples.nx[i], samples.ny[i], samples.nz[i]);
+    }
+    if (!(weight > 0.f) || !std::isfinite(weight)) continue;
+    Cell& cell = cells.emplace_back();
+    cell.emission = {
+        .intensity = intensity, .positionW = position / weight, .normalW = glm::normalize(normal)};
+    cell.texel = tile.corner + ivec2(texel % tile.size.x, texel / tile.size.x);
+    cell.alongU = steps.x;
+    cell.alongV = steps.y;
+  }
+}
+
+std::vector<Cell> cellsOf(const World& world, const Chart& chart,
+                          const std::map<std::uint32_t, EmissionTexture>& textures) {
+  const Source source(world, chart, textures);
+  // First a single sample a texel: where the texture is black around them, no more are needed.
+  ChartSampler coarse(world, chart, 1), fine(world, chart, kSamples);
+  Samples samples;
+  std::vector<Cell> cells;
+  for (int y = 0; y < chart.size.y; y += kTile)
+    for (int x = 0; x < chart.size.x; x += kTile) {
+      const Block tile{.corner = {x, y}, .size = glm::min(chart.size - ivec2(x, y), ivec2(kTile))};
+      coarse.sample(tile, samples);
+      if (samples.size() == 0 || !source.shines(samples)) continue;
+      fine.sample(tile, samples);
+      addCells(cells, source, fine, samples, tile);
+    }
+  return cells;
+}
+
+// The same on the other side of the surface.
+std::vector<Cell> backsOf(std::vector<Cell> cells) {
+  for (Cell& cell : cells) {
+    Emission& emission = cell.emission;
+    emission.positionW -= 2.f * liftAt(emission.positionW) * emission.normalW;
+    emission.normalW = -emission.normalW;
+  }
+  return cells;
+}
+
+// Bits of x and y in turn.
+std::uint64_t morton(ivec2 p) {
+  std::uint64_t code = 0;
+  for (unsigned bit = 0; bit < 31; ++bit) {
+    code |= (static_cast<std::uint64_t>(p.x) >> bit & 1) << (2 * bit);
+    code |= (static_cast<std::uint64_t>(p.y) >> bit & 1) << (2 * bit + 1);
+  }
+  return code;
+}
+
+class Builder {
+ public:
+  std::vector<EmitterNode> nodes;
+
+  // A quadtree over the chart's texels, by halves.
+  void addChart(std::vector<Cell>& cells) {
+    std::ranges::sort(cells, {}, [](const Cell& c) { return morton(c.texel); });
+    addRange(cells);
+  }
+  // A tree over trees that stand one behind the other, given by their first nodes.
+  std::vector<EmitterNode> joined(
+      std::vector<std::pair<std::uint32_t, std::uint32_t>> trees) const {
+    std::vector<EmitterNode> result;
+    result.reserve(nodes.size() + trees.size());
+    join(result, trees);
+    return result;
+  }
+
+ private:
+  void addRange(std::span<const Cell> cells) {
+    const std::size_t at = nodes.size();
+    nodes.emplace_back();
+    if (cells.size() == 1) {
+      const Cell& cell = cells[0];
+      EmitterNode& node = nodes[at];
+      node.emission = cell.emission;
+      node.axis = cell.emission.normalW;
+      node.cosine = 1.f;
+      node.alongU = cell.alongU;
+      node.alongV = cell.alongV;
+      node.size = glm::length(cell.alongU) + glm::length(cell.alongV);
+      node.boxW.grow(cell.emission.positionW);
+      return;
+    }
+    // Where the highest bit changes, which is where a square is halved.
+    const std::uint64_t first = morton(cells.front().texel), last = morton(cells.back().texel);
+    std::size_t half = cells.size() / 2;
+    if (first != last) {
+      std::uint64_t bit = 1ull << 63;
+      while (((first ^ last) & bit) == 0) bit >>= 1;
+      half = static_cast<std::size_t>(
+          std::ranges::partition_point(
+              cells, [&](const Cell& c) { return (morton(c.texel) & bit) == 0; }) -
+          cells.begin());
+    }
+    addRange(cells.first(half));
+    nodes[at].right = static_cast<std::uint32_t>(nodes.size());
+    addRange(cells.subspan(half));
+    combine(nodes, at, true);
+  }
+
+  // A node from its two children.
+  static void combine(std::vector<EmitterNode>& list, std::size_t at, bool oneChart) {
+    constexpr float kCosParallel = 0.999f;  // farther apart, two halves are not one light
+    const EmitterNode a = list[at + 1], b = list[list[at].right];
+    EmitterNode& node = list[at];
+    node.boxW = a.boxW;
+    node.boxW.grow(b.boxW);
+    const float wa = brightness(a.emission.intensity), wb = brightness(b.emission.intensity);
+    node.emission.intensity = a.emission.intensity + b.emission.intensity;
+    node.emission.positionW = (a.emission.positionW * wa + b.emission.positionW * wb) / (wa + wb);
+    // A cell's points reach beyond its middle.
+    node.size =
+        node.boxW.diagonal() + std::max(a.isCell() ? a.size : 0.f, b.isCell() ? b.size : 0.f);
+    node.size = std::max({node.size, a.size, b.size});
+    const vec3 axis = a.axis * wa + b.axis * wb;
+    const float length = glm::length(axis);
+    node.axis = length > 0.f ? axis / length : vec3(0.f);
+    node.cosine = -1.f;
+    if (length > 0.f && a.cosine > 0.f && b.cosine > 0.f) {
+      const auto angleTo = [&](const EmitterNode& child) {
+        return std::acos(std::clamp(glm::dot(node.axis, child.axis), -1.f, 1.f)) +
+               std::acos(std::min(child.cosine, 1.f));
+      };
+      const float angle = std::max(angleTo(a), angleTo(b));
+      // Some more, for what the arc cosines round.
+      node.cosine = angle < 0.5f * kPi ? std::cos(angle) - 1e-5f : -1.f;
+    }
+    node.emission.normalW = oneChart && node.cosine >= kCosParallel ? node.axis : vec3(0.f);
+  }
+
+  // trees: first node and count.
+  void join(std::vector<EmitterNode>& result,
+            std::span<std::pair<std::uint32_t, std::uint32_t>> trees) const {
+    if (trees.empty()) return;
+    if (trees.size() == 1) {
+      const auto offset = static_cast<std::uint32_t>(result.size()) - trees[0].first;
+      for (std::uint32_t i = 0; i < trees[0].second; ++i) {
+        EmitterNode node = nodes[trees[0].first + i];
+        if (!node.isCell()) node.right += offset;
+        result.push_back(node);
+      }
+      return;
+    }
+    Aabb centres;
+    for (const auto& tree : trees) centres.grow(nodes[tree.first].boxW.center());
+    const vec3 extent = centres.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    std::ranges::stable_sort(
+        trees, {}, [&](const auto& tree) { return nodes[tree.first].boxW.center()[axis]; });
+    const std::size_t at = result.size();
+    result.emplace_back();
+    join(result, trees.first(trees.size() / 2));
+    result[at].right = static_cast<std::uint32_t>(result.size());
+    join(result, trees.subspan(trees.size() / 2));
+    combine(result, at, false);
+  }
+};
+
+}  // namespace
+
+Emitters findEmitters(const World& world, const std::vector<Chart>& charts) {
+  const scene::Scene& scene = *world.scene;
+  Emitters result;
+  if (!scene.bake.areaLights) return result;
+  std::map<std::uint32_t, EmissionTexture> textures;
+  std::vector<std::uint32_t> shining;  // charts
+  for (std::uint32_t i = 0; i < charts.size(); ++i) {
+    const WorldObject& object = world.objects[charts[i].object];
+    const scene::Material& material = scene.materials[scene.objects[object.object].material];
+    if (material.emissive == vec3(0.f)) continue;
+    shining.push_back(i);
+    const scene::TextureSlot& slot = material.emissiveTexture;
+    if (slot.used() && slot.coordinates == scene::Coordinates::Mesh)
+      textures.try_emplace(slot.texture, scene.textures[slot.texture]);
+  }
+  std::vector<std::vector<Cell>> cells(shining.size());
+  parallelFor(shining.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      cells[i] = cellsOf(world, charts[shining[i]], textures);
+  });
+  Builder builder;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> trees;
+  const auto addTree = [&](std::vector<Cell> list) {
+    if (list.empty()) return;
+    result.cells += list.size();
+    const auto first = static_cast<std::uint32_t>(builder.nodes.size());
+    builder.addChart(list);
+    trees.emplace_back(first, static_cast<std::uint32_t>(builder.nodes.size()) - first);
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const WorldObject& object = world.objects[charts[shining[i]].object];
+    if (scene.materials[scene.objects[object.object].material].doubleSided)
+      addTree(backsOf(cells[i]));
+    addTree(std::move(cells[i]));
+  }
+  result.nodes = builder.joined(std::move(trees));
+  return result;
+}
+
+scene::PlacedLight lightOf(const Emission& emission, const scene::Scene& scene, float reach) {
+  scene::PlacedLight light;
+  light.kind = scene::LightKind::Spot;
+  light.positionW = emission.positionW;
+  light.directionW = emission.normalW;
+  light.intensity = emission.intensity;
+  light.attenuation = {0.f, 0.f, 1.f};
+  light.reach = reach;
+  light.cosOuter = 0.f;
+  light.cosInner = 1e-3f;
+  light.exponent = 1.f;
+  if (const auto& rule = scene.bake.area) {
+    light.intensity *= kPi * rule->intensity / rule->attenuation;
+    light.cosOuter = light.cosInner = std::cos(rule->cut);
+    light.exponent = 0.f;
+  }
+  return light;
+}
+
+}  // namespace lucerna::bake

@@ -1,0 +1,41 @@
+// Surfaces that emit light, as points: a cell for each lightmap texel that shines, in a tree whose
+// nodes stand for all cells below them where these are far enough away. What they give in all does
+// not depend on how fine the texels are.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bake/charts.hpp"
+#include "bake/samples.hpp"
+
+namespace lucerna::bake {
+
+struct Emission {
+  vec3 intensity{0.f};  // cd straight ahead: radiance times area, per colour
+  vec3 positionW{0.f};  // the middle of the light
+  vec3 normalW{0.f};    // unit; 0: the cells below face too many ways to be one light
+};
+
+struct EmitterNode {
+  Aabb boxW;  // of the cells' points
+  Emission emission;
+  float size = 0.f;               // m, a bound of the distance between two points below
+  vec3 axis{0.f};                 // all normals below are within the angle of this cosine
+  float cosine = -1.f;            // around the axis
+  std::uint32_t right = 0;        // the left child follows the node; 0: a cell
+  vec3 alongU{0.f}, alongV{0.f};  // of a cell: its sides, m in the world
+  bool isCell() const { return right == 0; }
+};
+
+// Cells of all charts of objects with an emissive material.
+struct Emitters {
+  std::vector<EmitterNode> nodes;  // [0] is the root; empty: nothing shines
+  std::uint64_t cells = 0;
+};
+Emitters findEmitters(const World& world, const std::vector<Chart>& charts);
+
+// How a point of an emitter shines, as a light: Lambert's law, or as the scene's hints say.
+scene::PlacedLight lightOf(const Emission& emission, const scene::Scene& scene, float reach);
+
+}  // namespace lucerna::bake
