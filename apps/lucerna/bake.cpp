@@ -166,6 +166,11 @@ void addBake(CommandLine& line) {
   command->add_option("--reach", options->bake.reach, "m that lights reach at most (as they say)")
       ->check(between(0.01, 1e6, "m"));
   command
+      ->add_option("--faintest", options->bake.faintest,
+                   "brightness of a white surface, at the scene's exposure, where an emitting "
+                   "surface's reach ends; 0: --reach alone counts (1/256)")
+      ->check(between(0, 1));
+  command
       ->add_option_function<std::vector<std::string>>(
           "--lights",
           [options](const std::vector<std::string>& groups) {

@@ -261,8 +261,9 @@ bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
   return glm::dot(to / distance, node.axis) > -(sinSpread + sinBall);
 }
 
-void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission) {
-  const PlacedLight point = lightOf(emission, scene_, settings_.emitterReach);
+void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
+                               float reach) {
+  const PlacedLight point = lightOf(emission, scene_, reach);
   shade(samples, point, tile);
   const std::size_t first = lit_.size();
   collect(samples, point, tile, {});
@@ -302,7 +303,7 @@ void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const E
     for (int x = 0; x < split; ++x) {
       const vec2 at = (vec2(x, y) + 0.5f) / static_cast<float>(split) - 0.5f;
       part.positionW = node.emission.positionW + node.alongU * at.x + node.alongV * at.y;
-      addEmission(samples, tile, part);
+      addEmission(samples, tile, part, node.reach);
     }
 }
 
@@ -316,7 +317,7 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
     stack_.pop_back();
     const EmitterNode& node = nodes[at];
     const float distance = distanceBetween(node.boxW, tile.boundsW);
-    if (distance >= settings_.emitterReach || !mayLight(samples, tile, node)) continue;
+    if (distance >= node.reach || !mayLight(samples, tile, node)) continue;
     const bool isOne = node.isCell() || (node.emission.normalW != vec3(0.f) &&
                                          node.size <= settings_.emitterSize * distance);
     if (isOne) {

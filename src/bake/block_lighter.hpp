@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <vector>
 
@@ -35,8 +34,7 @@ struct LighterSettings {
   int lightSamples = 16;
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
-  float emitterReach = std::numeric_limits<float>::infinity();  // m
-  float sceneDiagonal = 1.f;                                    // m
+  float sceneDiagonal = 1.f;  // m
 };
 
 // One thread's.
@@ -70,7 +68,7 @@ class BlockLighter {
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
-  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission);
+  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach);
   void flush();
 
   const ShadowTracer& tracer_;

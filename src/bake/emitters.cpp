@@ -154,7 +154,8 @@ class Builder {
   std::vector<EmitterNode> nodes;
 
   // A quadtree over the chart's texels, by halves.
-  void addChart(std::vector<Cell>& cells) {
+  void addChart(std::vector<Cell>& cells, float reach) {
+    reach_ = reach;
     std::ranges::sort(cells, {}, [](const Cell& c) { return morton(c.texel); });
     addRange(cells);
   }
@@ -177,6 +178,7 @@ class Builder {
       node.emission = cell.emission;
       node.axis = cell.emission.normalW;
       node.cosine = 1.f;
+      node.reach = reach_;
       node.alongU = cell.alongU;
       node.alongV = cell.alongV;
       node.size = glm::length(cell.alongU) + glm::length(cell.alongV);
@@ -207,6 +209,7 @@ class Builder {
     EmitterNode& node = list[at];
     node.boxW = a.boxW;
     node.boxW.grow(b.boxW);
+    node.reach = std::max(a.reach, b.reach);
     const float wa = brightness(a.emission.intensity), wb = brightness(b.emission.intensity);
     node.emission.intensity = a.emission.intensity + b.emission.intensity;
     node.emission.positionW = (a.emission.positionW * wa + b.emission.positionW * wb) / (wa + wb);
@@ -229,6 +232,8 @@ class Builder {
     }
     node.emission.normalW = oneChart && node.cosine >= kCosParallel ? node.axis : vec3(0.f);
   }
+
+  float reach_ = 0.f;  // m, of the chart under way
 
   // trees: first node and count.
   void join(std::vector<EmitterNode>& result,
@@ -260,9 +265,19 @@ class Builder {
   }
 };
 
+// Where all cells together, at one point and seen straight ahead, give the faintest irradiance.
+float reachOf(std::span<const Cell> cells, const scene::Scene& scene, float faintest) {
+  if (faintest <= 0.f) return std::numeric_limits<float>::infinity();
+  Emission all;
+  for (const Cell& cell : cells) all.intensity += cell.emission.intensity;
+  const vec3 i = lightOf(all, scene, 1.f).intensity;
+  return std::sqrt(std::max({i.x, i.y, i.z}) / faintest);
+}
+
 }  // namespace
 
-Emitters findEmitters(const World& world, const std::vector<Chart>& charts) {
+Emitters findEmitters(const World& world, const std::vector<Chart>& charts, float faintest,
+                      float mostReach) {
   const scene::Scene& scene = *world.scene;
   Emitters result;
   if (!scene.bake.areaLights) return result;
@@ -288,7 +303,7 @@ Emitters findEmitters(const World& world, const std::vector<Chart>& charts) {
     if (list.empty()) return;
     result.cells += list.size();
     const auto first = static_cast<std::uint32_t>(builder.nodes.size());
-    builder.addChart(list);
+    builder.addChart(list, std::min(reachOf(list, scene, faintest), mostReach));
     trees.emplace_back(first, static_cast<std::uint32_t>(builder.nodes.size()) - first);
   };
   for (std::size_t i = 0; i < cells.size(); ++i) {

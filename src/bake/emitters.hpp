@@ -23,6 +23,7 @@ struct EmitterNode {
   float size = 0.f;               // m, a bound of the distance between two points below
   vec3 axis{0.f};                 // all normals below are within the angle of this cosine
   float cosine = -1.f;            // around the axis
+  float reach = 0.f;              // m: of the charts below, the farthest
   std::uint32_t right = 0;        // the left child follows the node; 0: a cell
   vec3 alongU{0.f}, alongV{0.f};  // of a cell: its sides, m in the world
   bool isCell() const { return right == 0; }
@@ -33,7 +34,10 @@ struct Emitters {
   std::vector<EmitterNode> nodes;  // [0] is the root; empty: nothing shines
   std::uint64_t cells = 0;
 };
-Emitters findEmitters(const World& world, const std::vector<Chart>& charts);
+// faintest: irradiance; a chart reaches to where all of it together gives no more than this, and at
+// most mostReach (m). 0: as far as mostReach.
+Emitters findEmitters(const World& world, const std::vector<Chart>& charts, float faintest,
+                      float mostReach);
 
 // How a point of an emitter shines, as a light: Lambert's law, or as the scene's hints say.
 scene::PlacedLight lightOf(const Emission& emission, const scene::Scene& scene, float reach);

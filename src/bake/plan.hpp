@@ -32,7 +32,10 @@ struct BakeSettings {
   PackSettings pack;
   Sampling sampling;
   float reach = std::numeric_limits<float>::infinity();  // m that lights reach at most
-  std::vector<std::string> groups;                       // of lights that are baked; empty: all
+  // An emitting surface reaches to where it gives a white one no more than this brightness at the
+  // scene's exposure; 0: as far as `reach`.
+  float faintest = 1.f / 256;
+  std::vector<std::string> groups;  // of lights that are baked; empty: all
   Engine engine = Engine::Embree;
 };
 

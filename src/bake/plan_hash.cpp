@@ -49,6 +49,7 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.sampling.lightSamples);
   w(s.sampling.emitterSize);
   w(s.reach);
+  w(s.faintest);
   w(static_cast<int>(s.engine));
 }
 
@@ -65,6 +66,7 @@ std::uint64_t hashOf(const Plan& plan) {
   add(w, plan.settings);
   const scene::Scene& scene = *plan.world.scene;
   w(plan.emittersShine());
+  w(scene.exposure);  // sets how far emitting surfaces reach
   if (scene.bake.area)
     for (const float f :
          {scene.bake.area->cut, scene.bake.area->attenuation, scene.bake.area->intensity})

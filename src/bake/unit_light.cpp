@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "bake/triangle.hpp"
 #include "core/byte_stream.hpp"
@@ -30,6 +31,14 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan) {
       break;
   }
   CHECK(false, "the octree is yet to come");
+}
+
+Emitters emittersOf(const Plan& plan) {
+  if (!plan.emittersShine()) return {};
+  // What a white surface shows at the scene's exposure is the irradiance / pi * 2^EV.
+  const float white = kPi * std::exp2(-plan.world.scene->exposure);
+  return findEmitters(plan.world, plan.charts.charts, plan.settings.faintest * white,
+                      plan.settings.reach);
 }
 
 // The same members in the same order, written or read.
@@ -76,7 +85,7 @@ std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const P
 LightScene::LightScene(const Plan& plan)
     : tracer(makeTracer(plan)),
       occluders(plan.world),
-      emitters(plan.emittersShine() ? findEmitters(plan.world, plan.charts.charts) : Emitters()),
+      emitters(emittersOf(plan)),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
@@ -84,7 +93,6 @@ UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
       lighter_(*scene.tracer, scene.occluders, scene.emitters,
                {.lightSamples = plan.settings.sampling.lightSamples,
                 .emitterSize = plan.settings.sampling.emitterSize,
-                .emitterReach = plan.settings.reach,
                 .sceneDiagonal = scene.diagonal},
                *plan.world.scene) {}
 
