@@ -1,0 +1,425 @@
+// Blocks of BC6H from texels. For one region and for the few partitions into two that promise most:
+// a line through the texels along their principal axis, on the scale of half bits, on which the
+// format mixes; the most precise mode that can say its ends; the nearest index for each texel; then
+// new ends by least squares for those indices, as long as that helps.
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+
+#include "image/bc6h.hpp"
+#include "image/bc6h_format.hpp"
+
+namespace lucerna {
+namespace {
+
+using bc6h::Fields;
+using bc6h::kTexels;
+using bc6h::Mode;
+
+using PerChannel = std::array<float, 3>;
+using PerTexel = std::array<float, kTexels>;
+
+// In kModeTable, the most precise first.
+constexpr std::array<int, 4> kOneRegion = {13, 12, 11, 10};
+constexpr std::array<int, 10> kTwoRegions = {2, 3, 4, 0, 5, 6, 7, 8, 1, 9};
+
+constexpr int kAnyTexel = 0xffff;     // a mask as in kPartitionMasks
+constexpr float kLargest = 0x7bff;    // half bits
+constexpr float kDarkest = 0x1p-10f;  // of the block's largest: what is darker need not be exact
+constexpr float kGoodEnough = kTexels * 0x1p-22f;  // an error below which no other mode is tried
+constexpr int kTriedPartitions = 6, kRefinedPartitions = 2, kRounds = 3, kPowerSteps = 6;
+
+// Exact for all that are finite and positive.
+float linearOf(int halfBits) {
+  return std::bit_cast<float>(halfBits << 13) * 0x1p112f;
+}
+
+// How much more one more of the half bits stands for.
+float stepAt(int halfBits) {
+  return std::ldexp(1.f, std::max(halfBits >> 10, 1) - 25);
+}
+
+struct Source {
+  std::array<PerTexel, 3> half, linear;  // by channel
+  PerTexel scale;                        // of squared errors of linear values
+  std::array<PerTexel, 3> weight;        // of squared errors of half bits, by channel
+  // For principal axes: a weight for each texel, and its half bits from their mean on, scaled so
+  // that the channels count alike.
+  PerTexel importance;
+  PerChannel mean, channelScale;
+  std::array<PerTexel, 3> scaled;
+};
+
+void weigh(Source& source) {
+  PerTexel brightest;
+  for (int t = 0; t < kTexels; ++t)
+    brightest[t] = std::max({source.linear[0][t], source.linear[1][t], source.linear[2][t]});
+  const float darkest = kDarkest * *std::ranges::max_element(brightest);
+  for (int t = 0; t < kTexels; ++t) {
+    const float reference = std::max(brightest[t] + darkest, 0x1p-24f);
+    source.scale[t] = 1.f / (reference * reference);
+  }
+}
+
+void scaleChannels(Source& source) {
+  float all = 0;
+  PerChannel sums = {};
+  source.importance.fill(0.f);
+  for (int c = 0; c < 3; ++c)
+    for (int t = 0; t < kTexels; ++t) {
+      source.importance[t] += source.weight[c][t];
+      sums[c] += source.weight[c][t];
+      all += source.weight[c][t];
+    }
+  for (int c = 0; c < 3; ++c) {
+    source.channelScale[c] = std::sqrt(std::max(sums[c] / all, 1e-6f));
+    source.mean[c] = std::accumulate(source.half[c].begin(), source.half[c].end(), 0.f) / kTexels;
+    for (int t = 0; t < kTexels; ++t)
+      source.scaled[c][t] = source.channelScale[c] * (source.half[c][t] - source.mean[c]);
+  }
+}
+
+Source sourceOf(const Bc6hTexels& texels) {
+  Source source;
+  for (int c = 0; c < 3; ++c)
+    for (int t = 0; t < kTexels; ++t) {
+      source.half[c][t] = texels[t][c];
+      source.linear[c][t] = linearOf(texels[t][c]);
+    }
+  weigh(source);
+  for (int c = 0; c < 3; ++c)
+    for (int t = 0; t < kTexels; ++t) {
+      const float step = stepAt(texels[t][c]);
+      source.weight[c][t] = step * step * source.scale[t];
+    }
+  scaleChannels(source);
+  return source;
+}
+
+// Sums over the texels of a region, of importance times the products of Source::scaled.
+struct Moments {
+  float weight = 0;
+  PerChannel first = {};
+  std::array<float, 6> second = {};  // rr gg bb rg rb gb
+};
+
+constexpr std::array<std::array<int, 2>, 6> kPairs = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+
+Moments momentsOf(const Source& source, int texel) {
+  Moments moments;
+  moments.weight = source.importance[texel];
+  for (int c = 0; c < 3; ++c) moments.first[c] = moments.weight * source.scaled[c][texel];
+  for (int p = 0; p < 6; ++p)
+    moments.second[p] = moments.first[kPairs[p][0]] * source.scaled[kPairs[p][1]][texel];
+  return moments;
+}
+
+void add(Moments& to, const Moments& from, float factor) {
+  to.weight += factor * from.weight;
+  for (int c = 0; c < 3; ++c) to.first[c] += factor * from.first[c];
+  for (int p = 0; p < 6; ++p) to.second[p] += factor * from.second[p];
+}
+
+// The line through a set of points that leaves the smallest squared distances.
+struct Axis {
+  PerChannel mean = {}, direction = {};  // of length 1
+  float along = 0, across = 0;           // sums of weight times squared distance
+};
+
+PerChannel times(const std::array<float, 6>& matrix, const PerChannel& v) {
+  return {matrix[0] * v[0] + matrix[3] * v[1] + matrix[4] * v[2],
+          matrix[3] * v[0] + matrix[1] * v[1] + matrix[5] * v[2],
+          matrix[4] * v[0] + matrix[5] * v[1] + matrix[2] * v[2]};
+}
+
+float dot(const PerChannel& a, const PerChannel& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// By power iteration from the channel that varies most.
+Axis axisOf(const Moments& moments) {
+  Axis axis;
+  if (moments.weight <= 0) return axis;
+  for (int c = 0; c < 3; ++c) axis.mean[c] = moments.first[c] / moments.weight;
+  std::array<float, 6> covariance;
+  for (int p = 0; p < 6; ++p)
+    covariance[p] = moments.second[p] - moments.first[kPairs[p][0]] * axis.mean[kPairs[p][1]];
+  const float trace = std::max(covariance[0] + covariance[1] + covariance[2], 0.f);
+  const auto widest =
+      std::max_element(covariance.begin(), covariance.begin() + 3) - covariance.begin();
+  axis.direction[widest] = 1.f;
+  for (int step = 0; step < kPowerSteps; ++step) {
+    const PerChannel next = times(covariance, axis.direction);
+    const float length = std::sqrt(dot(next, next));
+    if (length <= 0.f) break;
+    for (int c = 0; c < 3; ++c) axis.direction[c] = next[c] / length;
+  }
+  axis.along = std::clamp(dot(axis.direction, times(covariance, axis.direction)), 0.f, trace);
+  axis.across = trace - axis.along;
+  return axis;
+}
+
+// Two ends, in half bits.
+struct Line {
+  std::array<PerChannel, 2> ends;
+};
+
+Line lineAlong(const Source& source, const Axis& axis, int mask) {
+  float low = 0, high = 0;
+  for (int t = 0; t < kTexels; ++t)
+    if (mask >> t & 1) {
+      PerChannel offset;
+      for (int c = 0; c < 3; ++c) offset[c] = source.scaled[c][t] - axis.mean[c];
+      const float position = dot(offset, axis.direction);
+      low = std::min(low, position);
+      high = std::max(high, position);
+    }
+  Line line;
+  for (int c = 0; c < 3; ++c) {
+    const float mean = axis.mean[c] / source.channelScale[c] + source.mean[c],
+                direction = axis.direction[c] / source.channelScale[c];
+    line.ends[0][c] = mean + low * direction;
+    line.ends[1][c] = mean + high * direction;
+  }
+  return line;
+}
+
+int maskOf(const Fields& fields, int region) {
+  if (bc6h::kModeTable[fields.mode].regions == 1) return kAnyTexel;
+  const int second = bc6h::kPartitionMasks[fields.partition];
+  return region == 0 ? kAnyTexel & ~second : second;
+}
+int anchorOf(const Fields& fields, int region) {
+  return region == 0 ? 0 : bc6h::kAnchors[fields.partition];
+}
+
+// Ends for the indices that texels have, each channel by itself: the smallest sum of weight *
+// (first * (1 - f) + second * f - half)^2. Where that has no single answer `line` stays.
+void solveEnds(const Source& source, const Fields& fields, int mask, Line& line) {
+  const auto weights = bc6h::weightsOf(bc6h::kModeTable[fields.mode].regions);
+  for (int c = 0; c < 3; ++c) {
+    float aa = 0, ab = 0, bb = 0, ax = 0, bx = 0;
+    for (int t = 0; t < kTexels; ++t) {
+      if (!(mask >> t & 1)) continue;
+      const float f = static_cast<float>(weights[fields.indices[t]]) / 64.f,
+                  weight = source.weight[c][t];
+      aa += weight * (1 - f) * (1 - f);
+      ab += weight * (1 - f) * f;
+      bb += weight * f * f;
+      ax += weight * (1 - f) * source.half[c][t];
+      bx += weight * f * source.half[c][t];
+    }
+    const float determinant = aa * bb - ab * ab;
+    if (!(determinant > 1e-4f * aa * bb)) continue;
+    line.ends[0][c] = (ax * bb - bx * ab) / determinant;
+    line.ends[1][c] = (bx * aa - ax * ab) / determinant;
+  }
+}
+
+// The nearest; decoding cuts the fraction of a half bit off, so its middle is wanted.
+int quantized(float halfBits, int bits) {
+  const float wanted = (std::clamp(halfBits, 0.f, kLargest) + 0.5f) * (64.f / 31.f);
+  const int largest = (1 << bits) - 1;
+  if (bits == 16) return std::min(static_cast<int>(wanted + 0.5f), largest);
+  const int near = static_cast<int>(wanted) >> (16 - bits);
+  int best = 0;
+  float bestDistance = 1e9f;
+  for (int value = std::max(near - 1, 0); value <= std::min(near + 1, largest); ++value) {
+    const float distance = std::abs(static_cast<float>(bc6h::unquantized(value, bits)) - wanted);
+    if (distance < bestDistance) best = value, bestDistance = distance;
+  }
+  return best;
+}
+
+// Linear values that indices stand for, by channel.
+struct Palette {
+  std::array<std::array<float, 16>, 3> values;
+  int count = 0;
+};
+
+Palette paletteOf(const Fields& fields, int region) {
+  const Mode& mode = bc6h::kModeTable[fields.mode];
+  const auto weights = bc6h::weightsOf(mode.regions);
+  Palette palette;
+  palette.count = static_cast<int>(weights.size());
+  for (int c = 0; c < 3; ++c) {
+    const int first = bc6h::unquantized(fields.endpoints[2 * region][c], mode.endpointBits),
+              second = bc6h::unquantized(fields.endpoints[2 * region + 1][c], mode.endpointBits);
+    for (int i = 0; i < palette.count; ++i)
+      palette.values[c][i] = linearOf(bc6h::halfOf(first, second, weights[i]));
+  }
+  return palette;
+}
+
+struct Nearest {
+  PerTexel error;
+  std::array<int, kTexels> index;
+};
+
+// Of the first `count` of a palette, for all texels; the inner loop becomes vector code.
+Nearest nearestOf(const Source& source, const Palette& palette, int count) {
+  Nearest nearest;
+  nearest.error.fill(1e30f);
+  nearest.index.fill(0);
+  for (int i = 0; i < count; ++i) {
+    const float r = palette.values[0][i], g = palette.values[1][i], b = palette.values[2][i];
+    for (int t = 0; t < kTexels; ++t) {
+      const float dr = source.linear[0][t] - r, dg = source.linear[1][t] - g,
+                  db = source.linear[2][t] - b;
+      const float error = (dr * dr + dg * dg + db * db) * source.scale[t];
+      const bool nearer = error < nearest.error[t];
+      nearest.error[t] = nearer ? error : nearest.error[t];
+      nearest.index[t] = nearer ? i : nearest.index[t];
+    }
+  }
+  return nearest;
+}
+
+// Gives each texel its index and returns the block's error.
+float chooseIndices(const Source& source, Fields& fields) {
+  float sum = 0;
+  for (int region = 0; region < bc6h::kModeTable[fields.mode].regions; ++region) {
+    const Palette palette = paletteOf(fields, region);
+    Nearest nearest = nearestOf(source, palette, palette.count);
+    const int anchor = anchorOf(fields, region), mask = maskOf(fields, region);
+    if (nearest.index[anchor] >= palette.count / 2) {
+      const Nearest lower = nearestOf(source, palette, palette.count / 2);
+      nearest.index[anchor] = lower.index[anchor];
+      nearest.error[anchor] = lower.error[anchor];
+    }
+    for (int t = 0; t < kTexels; ++t)
+      if (mask >> t & 1) {
+        fields.indices[t] = static_cast<std::uint8_t>(nearest.index[t]);
+        sum += nearest.error[t];
+      }
+  }
+  return sum;
+}
+
+struct Candidate {
+  Fields fields;
+  std::array<Line, 2> lines;
+  float error = 1e30f;
+};
+
+// The region's anchor needs a low index, so the line begins at the end near it.
+void turn(const Source& source, int anchor, Line& line) {
+  float difference = 0;
+  for (int c = 0; c < 3; ++c) {
+    const float half = source.half[c][anchor], first = half - line.ends[0][c],
+                second = half - line.ends[1][c];
+    difference += source.weight[c][anchor] * (first * first - second * second);
+  }
+  if (difference > 0) std::swap(line.ends[0], line.ends[1]);
+}
+
+// The most precise mode among `modes` that can say the candidate's lines.
+void chooseMode(std::span<const int> modes, Candidate& candidate) {
+  for (const int index : modes) {
+    const Mode& mode = bc6h::kModeTable[index];
+    candidate.fields.mode = index;
+    for (int e = 0; e < 2 * mode.regions; ++e)
+      for (int c = 0; c < 3; ++c)
+        candidate.fields.endpoints[e][c] =
+            quantized(candidate.lines[e / 2].ends[e % 2][c], mode.endpointBits);
+    if (fits(mode, candidate.fields.endpoints)) return;
+  }
+}
+
+// From the candidate's lines and partition all else.
+void settle(const Source& source, std::span<const int> modes, Candidate& candidate) {
+  candidate.fields.mode = modes.front();  // tells how many regions there are
+  for (int region = 0; region < bc6h::kModeTable[modes.front()].regions; ++region)
+    turn(source, anchorOf(candidate.fields, region), candidate.lines[region]);
+  chooseMode(modes, candidate);
+  candidate.error = chooseIndices(source, candidate.fields);
+}
+
+void refine(const Source& source, std::span<const int> modes, Candidate& candidate) {
+  for (int round = 0; round < kRounds && candidate.error > kGoodEnough; ++round) {
+    Candidate next = candidate;
+    for (int region = 0; region < bc6h::kModeTable[candidate.fields.mode].regions; ++region)
+      solveEnds(source, candidate.fields, maskOf(candidate.fields, region), next.lines[region]);
+    settle(source, modes, next);
+    if (next.error >= candidate.error) return;
+    candidate = next;
+  }
+}
+
+Candidate oneRegion(const Source& source, const Moments& all) {
+  Candidate candidate;
+  candidate.lines[0] = lineAlong(source, axisOf(all), kAnyTexel);
+  settle(source, kOneRegion, candidate);
+  refine(source, kOneRegion, candidate);
+  return candidate;
+}
+
+struct Cut {
+  int partition = 0;
+  std::array<Axis, 2> axes;
+  float promise = 0;  // the error to expect
+};
+
+// What lies off the two lines, and a share of what lies along them for the coarse steps there:
+// evenly spread texels would be off by 1/49 of it with eight indices.
+std::array<Cut, bc6h::kPartitions> cutsOf(const Source& source, const Moments& all) {
+  std::array<Moments, kTexels> moments;
+  for (int t = 0; t < kTexels; ++t) moments[t] = momentsOf(source, t);
+  std::array<Cut, bc6h::kPartitions> cuts;
+  for (int partition = 0; partition < bc6h::kPartitions; ++partition) {
+    Moments first = all, second;
+    for (int t = 0; t < kTexels; ++t)
+      if (bc6h::kPartitionMasks[partition] >> t & 1) add(second, moments[t], 1.f);
+    add(first, second, -1.f);
+    Cut& cut = cuts[partition];
+    cut.partition = partition;
+    cut.axes = {axisOf(first), axisOf(second)};
+    for (const Axis& axis : cut.axes) cut.promise += axis.across + axis.along / 49.f;
+  }
+  return cuts;
+}
+
+Candidate twoRegions(const Source& source, const Moments& all) {
+  std::array<Cut, bc6h::kPartitions> cuts = cutsOf(source, all);
+  std::ranges::stable_sort(cuts, {}, &Cut::promise);
+  std::array<Candidate, kTriedPartitions> tried;
+  for (int i = 0; i < kTriedPartitions; ++i) {
+    Fields& fields = tried[i].fields;
+    fields.mode = kTwoRegions.front();
+    fields.partition = cuts[i].partition;
+    for (int region = 0; region < 2; ++region)
+      tried[i].lines[region] = lineAlong(source, cuts[i].axes[region], maskOf(fields, region));
+    settle(source, kTwoRegions, tried[i]);
+  }
+  std::ranges::stable_sort(tried, {}, &Candidate::error);
+  for (int i = 0; i < kRefinedPartitions; ++i) refine(source, kTwoRegions, tried[i]);
+  return *std::ranges::min_element(tried, {}, &Candidate::error);
+}
+
+// Mode 15 says any half exactly.
+Bc6hBlock constantBlock(const std::array<std::uint16_t, 3>& color) {
+  Fields fields;
+  fields.mode = kOneRegion.front();
+  for (int c = 0; c < 3; ++c)
+    fields.endpoints[0][c] = fields.endpoints[1][c] =
+        quantized(color[c], bc6h::kModeTable[fields.mode].endpointBits);
+  return bc6h::pack(fields);
+}
+
+}  // namespace
+
+Bc6hBlock encodeBc6hBlock(const Bc6hTexels& texels) {
+  if (std::ranges::all_of(texels, [&](const auto& color) { return color == texels[0]; }))
+    return constantBlock(texels[0]);
+  const Source source = sourceOf(texels);
+  Moments all;
+  for (int t = 0; t < kTexels; ++t) add(all, momentsOf(source, t), 1.f);
+  Candidate best = oneRegion(source, all);
+  if (best.error > kGoodEnough)
+    if (const Candidate two = twoRegions(source, all); two.error < best.error) best = two;
+  return bc6h::pack(best.fields);
+}
+
+}  // namespace lucerna
