@@ -28,6 +28,7 @@ constexpr int kAnyTexel = 0xffff;     // a mask as in kPartitionMasks
 constexpr float kLargest = 0x7bff;    // half bits
 constexpr float kDarkest = 0x1p-10f;  // of the block's largest: what is darker need not be exact
 constexpr float kGoodEnough = kTexels * 0x1p-22f;  // an error below which no other mode is tried
+constexpr float kUnknown = 1e30f;                  // more than any error
 constexpr int kTriedPartitions = 6, kRefinedPartitions = 2, kRounds = 3, kPowerSteps = 6;
 
 // Exact for all that are finite and positive.
@@ -35,9 +36,10 @@ float linearOf(int halfBits) {
   return std::bit_cast<float>(halfBits << 13) * 0x1p112f;
 }
 
-// How much more one more of the half bits stands for.
+// How much more one more of the half bits stands for: 2^-24 below 2^-14, from there on twice as
+// much with each exponent.
 float stepAt(int halfBits) {
-  return std::ldexp(1.f, std::max(halfBits >> 10, 1) - 25);
+  return std::bit_cast<float>((std::max(halfBits >> 10, 1) + 127 - 25) << 23);
 }
 
 struct Source {
@@ -122,42 +124,53 @@ void add(Moments& to, const Moments& from, float factor) {
   for (int p = 0; p < 6; ++p) to.second[p] += factor * from.second[p];
 }
 
-// The line through a set of points that leaves the smallest squared distances.
-struct Axis {
-  PerChannel mean = {}, direction = {};  // of length 1
-  float along = 0, across = 0;           // sums of weight times squared distance
-};
-
-PerChannel times(const std::array<float, 6>& matrix, const PerChannel& v) {
-  return {matrix[0] * v[0] + matrix[3] * v[1] + matrix[4] * v[2],
-          matrix[3] * v[0] + matrix[1] * v[1] + matrix[5] * v[2],
-          matrix[4] * v[0] + matrix[5] * v[1] + matrix[2] * v[2]};
-}
-
 float dot(const PerChannel& a, const PerChannel& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// By power iteration from the channel that varies most.
+// A symmetric matrix, its elements as in Moments.
+using Symmetric = std::array<float, 6>;
+
+PerChannel times(const Symmetric& matrix, const PerChannel& v) {
+  return {matrix[0] * v[0] + matrix[3] * v[1] + matrix[4] * v[2],
+          matrix[3] * v[0] + matrix[1] * v[1] + matrix[5] * v[2],
+          matrix[4] * v[0] + matrix[5] * v[1] + matrix[2] * v[2]};
+}
+float traceOf(const Symmetric& matrix) {
+  return matrix[0] + matrix[1] + matrix[2];
+}
+
+Symmetric covarianceOf(const Moments& moments) {
+  Symmetric covariance = {};
+  if (moments.weight <= 0) return covariance;
+  for (int p = 0; p < 6; ++p)
+    covariance[p] = moments.second[p] -
+                    moments.first[kPairs[p][0]] * moments.first[kPairs[p][1]] / moments.weight;
+  return covariance;
+}
+
+// The line through points that leaves the smallest squared distances. Of points that are all alike
+// the direction is 0.
+struct Axis {
+  PerChannel mean = {}, direction = {};
+};
+
+// By power iteration from the channel that varies most; the matrix has a trace of 1, so that the
+// vector shrinks by 3^-kPowerSteps at most.
 Axis axisOf(const Moments& moments) {
   Axis axis;
-  if (moments.weight <= 0) return axis;
-  for (int c = 0; c < 3; ++c) axis.mean[c] = moments.first[c] / moments.weight;
-  std::array<float, 6> covariance;
-  for (int p = 0; p < 6; ++p)
-    covariance[p] = moments.second[p] - moments.first[kPairs[p][0]] * axis.mean[kPairs[p][1]];
-  const float trace = std::max(covariance[0] + covariance[1] + covariance[2], 0.f);
+  Symmetric covariance = covarianceOf(moments);
+  const float trace = traceOf(covariance);
+  if (moments.weight > 0)
+    for (int c = 0; c < 3; ++c) axis.mean[c] = moments.first[c] / moments.weight;
+  if (!(trace > 0.f)) return axis;
+  for (float& value : covariance) value /= trace;
   const auto widest =
       std::max_element(covariance.begin(), covariance.begin() + 3) - covariance.begin();
   axis.direction[widest] = 1.f;
-  for (int step = 0; step < kPowerSteps; ++step) {
-    const PerChannel next = times(covariance, axis.direction);
-    const float length = std::sqrt(dot(next, next));
-    if (length <= 0.f) break;
-    for (int c = 0; c < 3; ++c) axis.direction[c] = next[c] / length;
-  }
-  axis.along = std::clamp(dot(axis.direction, times(covariance, axis.direction)), 0.f, trace);
-  axis.across = trace - axis.along;
+  for (int step = 0; step < kPowerSteps; ++step) axis.direction = times(covariance, axis.direction);
+  const float length = std::sqrt(dot(axis.direction, axis.direction));
+  for (float& value : axis.direction) value /= length;
   return axis;
 }
 
@@ -218,19 +231,16 @@ void solveEnds(const Source& source, const Fields& fields, int mask, Line& line)
   }
 }
 
-// The nearest; decoding cuts the fraction of a half bit off, so its middle is wanted.
+// The nearest to what decoding gives: the middles of `step`s, but for the first and the last value,
+// which are 0 and 0xffff. As it cuts the fraction of a half bit off, that one's middle is wanted.
 int quantized(float halfBits, int bits) {
   const float wanted = (std::clamp(halfBits, 0.f, kLargest) + 0.5f) * (64.f / 31.f);
   const int largest = (1 << bits) - 1;
   if (bits == 16) return std::min(static_cast<int>(wanted + 0.5f), largest);
-  const int near = static_cast<int>(wanted) >> (16 - bits);
-  int best = 0;
-  float bestDistance = 1e9f;
-  for (int value = std::max(near - 1, 0); value <= std::min(near + 1, largest); ++value) {
-    const float distance = std::abs(static_cast<float>(bc6h::unquantized(value, bits)) - wanted);
-    if (distance < bestDistance) best = value, bestDistance = distance;
-  }
-  return best;
+  const auto step = static_cast<float>(1 << (16 - bits));
+  if (wanted < step) return wanted > 0.75f * step ? 1 : 0;
+  if (wanted > 65536.f - step) return wanted < 65536.f - 0.75f * step ? largest - 1 : largest;
+  return static_cast<int>(wanted / step);
 }
 
 // Linear values that indices stand for, by channel.
@@ -261,19 +271,20 @@ struct Nearest {
 // Of the first `count` of a palette, for all texels; the inner loop becomes vector code.
 Nearest nearestOf(const Source& source, const Palette& palette, int count) {
   Nearest nearest;
-  nearest.error.fill(1e30f);
+  nearest.error.fill(kUnknown);
   nearest.index.fill(0);
   for (int i = 0; i < count; ++i) {
     const float r = palette.values[0][i], g = palette.values[1][i], b = palette.values[2][i];
     for (int t = 0; t < kTexels; ++t) {
       const float dr = source.linear[0][t] - r, dg = source.linear[1][t] - g,
                   db = source.linear[2][t] - b;
-      const float error = (dr * dr + dg * dg + db * db) * source.scale[t];
+      const float error = dr * dr + dg * dg + db * db;
       const bool nearer = error < nearest.error[t];
       nearest.error[t] = nearer ? error : nearest.error[t];
       nearest.index[t] = nearer ? i : nearest.index[t];
     }
   }
+  for (int t = 0; t < kTexels; ++t) nearest.error[t] *= source.scale[t];
   return nearest;
 }
 
@@ -301,7 +312,7 @@ float chooseIndices(const Source& source, Fields& fields) {
 struct Candidate {
   Fields fields;
   std::array<Line, 2> lines;
-  float error = 1e30f;
+  float error = kUnknown;
 };
 
 // The region's anchor needs a low index, so the line begins at the end near it.
@@ -317,13 +328,16 @@ void turn(const Source& source, int anchor, Line& line) {
 
 // The most precise mode among `modes` that can say the candidate's lines.
 void chooseMode(std::span<const int> modes, Candidate& candidate) {
+  int bits = 0;
   for (const int index : modes) {
     const Mode& mode = bc6h::kModeTable[index];
     candidate.fields.mode = index;
-    for (int e = 0; e < 2 * mode.regions; ++e)
-      for (int c = 0; c < 3; ++c)
-        candidate.fields.endpoints[e][c] =
-            quantized(candidate.lines[e / 2].ends[e % 2][c], mode.endpointBits);
+    if (mode.endpointBits != bits)
+      for (int e = 0; e < 2 * mode.regions; ++e)
+        for (int c = 0; c < 3; ++c)
+          candidate.fields.endpoints[e][c] =
+              quantized(candidate.lines[e / 2].ends[e % 2][c], mode.endpointBits);
+    bits = mode.endpointBits;
     if (fits(mode, candidate.fields.endpoints)) return;
   }
 }
@@ -356,41 +370,53 @@ Candidate oneRegion(const Source& source, const Moments& all) {
   return candidate;
 }
 
+// The error to expect of a region: what lies off its line, and a share of what lies along it for
+// the coarse steps there; evenly spread texels would be off by 1/49 of that with eight indices. The
+// Frobenius norm stands for the largest eigenvalue, which it hardly exceeds where the others are
+// small.
+float promiseOf(const Moments& moments) {
+  const Symmetric m = covarianceOf(moments);
+  const float along = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2] +
+                                2 * (m[3] * m[3] + m[4] * m[4] + m[5] * m[5]));
+  return traceOf(m) - along + along / 49.f;
+}
+
 struct Cut {
   int partition = 0;
-  std::array<Axis, 2> axes;
-  float promise = 0;  // the error to expect
+  std::array<Moments, 2> regions;
+  float promise = 0;
 };
 
-// What lies off the two lines, and a share of what lies along them for the coarse steps there:
-// evenly spread texels would be off by 1/49 of it with eight indices.
-std::array<Cut, bc6h::kPartitions> cutsOf(const Source& source, const Moments& all) {
+using BestCuts = std::array<Cut, kTriedPartitions>;
+
+// The partitions that promise the smallest errors, the best first.
+BestCuts bestCuts(const Source& source, const Moments& all) {
   std::array<Moments, kTexels> moments;
   for (int t = 0; t < kTexels; ++t) moments[t] = momentsOf(source, t);
-  std::array<Cut, bc6h::kPartitions> cuts;
+  BestCuts best;
+  for (Cut& cut : best) cut.promise = kUnknown;
   for (int partition = 0; partition < bc6h::kPartitions; ++partition) {
-    Moments first = all, second;
+    Cut cut{partition, {all, {}}};
     for (int t = 0; t < kTexels; ++t)
-      if (bc6h::kPartitionMasks[partition] >> t & 1) add(second, moments[t], 1.f);
-    add(first, second, -1.f);
-    Cut& cut = cuts[partition];
-    cut.partition = partition;
-    cut.axes = {axisOf(first), axisOf(second)};
-    for (const Axis& axis : cut.axes) cut.promise += axis.across + axis.along / 49.f;
+      if (bc6h::kPartitionMasks[partition] >> t & 1) add(cut.regions[1], moments[t], 1.f);
+    add(cut.regions[0], cut.regions[1], -1.f);
+    cut.promise = promiseOf(cut.regions[0]) + promiseOf(cut.regions[1]);
+    for (Cut& place : best)
+      if (cut.promise < place.promise) std::swap(cut, place);
   }
-  return cuts;
+  return best;
 }
 
 Candidate twoRegions(const Source& source, const Moments& all) {
-  std::array<Cut, bc6h::kPartitions> cuts = cutsOf(source, all);
-  std::ranges::stable_sort(cuts, {}, &Cut::promise);
+  const BestCuts cuts = bestCuts(source, all);
   std::array<Candidate, kTriedPartitions> tried;
   for (int i = 0; i < kTriedPartitions; ++i) {
     Fields& fields = tried[i].fields;
     fields.mode = kTwoRegions.front();
     fields.partition = cuts[i].partition;
     for (int region = 0; region < 2; ++region)
-      tried[i].lines[region] = lineAlong(source, cuts[i].axes[region], maskOf(fields, region));
+      tried[i].lines[region] =
+          lineAlong(source, axisOf(cuts[i].regions[region]), maskOf(fields, region));
     settle(source, kTwoRegions, tried[i]);
   }
   std::ranges::stable_sort(tried, {}, &Candidate::error);
