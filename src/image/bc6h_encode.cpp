@@ -99,37 +99,14 @@ Source sourceOf(const Bc6hTexels& texels) {
   return source;
 }
 
-// Sums over the texels of a region, of importance times the products of Source::scaled.
-struct Moments {
-  float weight = 0;
-  PerChannel first = {};
-  std::array<float, 6> second = {};  // rr gg bb rg rb gb
-};
-
-constexpr std::array<std::array<int, 2>, 6> kPairs = {
-    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-
-Moments momentsOf(const Source& source, int texel) {
-  Moments moments;
-  moments.weight = source.importance[texel];
-  for (int c = 0; c < 3; ++c) moments.first[c] = moments.weight * source.scaled[c][texel];
-  for (int p = 0; p < 6; ++p)
-    moments.second[p] = moments.first[kPairs[p][0]] * source.scaled[kPairs[p][1]][texel];
-  return moments;
-}
-
-void add(Moments& to, const Moments& from, float factor) {
-  to.weight += factor * from.weight;
-  for (int c = 0; c < 3; ++c) to.first[c] += factor * from.first[c];
-  for (int p = 0; p < 6; ++p) to.second[p] += factor * from.second[p];
-}
-
 float dot(const PerChannel& a, const PerChannel& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// A symmetric matrix, its elements as in Moments.
+// A symmetric matrix: rr gg bb rg rb gb.
 using Symmetric = std::array<float, 6>;
+constexpr std::array<std::array<int, 2>, 6> kPairs = {
+    {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 PerChannel times(const Symmetric& matrix, const PerChannel& v) {
   return {matrix[0] * v[0] + matrix[3] * v[1] + matrix[4] * v[2],
@@ -140,37 +117,49 @@ float traceOf(const Symmetric& matrix) {
   return matrix[0] + matrix[1] + matrix[2];
 }
 
-Symmetric covarianceOf(const Moments& moments) {
+PerChannel offsetOf(const Source& source, int texel, const PerChannel& from) {
+  return {source.scaled[0][texel] - from[0], source.scaled[1][texel] - from[1],
+          source.scaled[2][texel] - from[2]};
+}
+
+PerChannel meanOf(const Source& source, int mask) {
+  PerChannel mean = {};
+  float weight = 0;
+  for (int t = 0; t < kTexels; ++t) {
+    if (!(mask >> t & 1)) continue;
+    weight += source.importance[t];
+    for (int c = 0; c < 3; ++c) mean[c] += source.importance[t] * source.scaled[c][t];
+  }
+  for (float& value : mean) value /= weight;
+  return mean;
+}
+
+// Of the texels' offsets from their mean, so that no rounding makes a diagonal negative.
+Symmetric covarianceOf(const Source& source, const PerChannel& mean, int mask) {
   Symmetric covariance = {};
-  if (moments.weight <= 0) return covariance;
-  for (int p = 0; p < 6; ++p)
-    covariance[p] = moments.second[p] -
-                    moments.first[kPairs[p][0]] * moments.first[kPairs[p][1]] / moments.weight;
+  for (int t = 0; t < kTexels; ++t) {
+    if (!(mask >> t & 1)) continue;
+    const PerChannel offset = offsetOf(source, t, mean);
+    for (int p = 0; p < 6; ++p)
+      covariance[p] += source.importance[t] * offset[kPairs[p][0]] * offset[kPairs[p][1]];
+  }
   return covariance;
 }
 
-// The line through points that leaves the smallest squared distances. Of points that are all alike
-// the direction is 0.
-struct Axis {
-  PerChannel mean = {}, direction = {};
-};
-
-// By power iteration from the channel that varies most; the matrix has a trace of 1, so that the
-// vector shrinks by 3^-kPowerSteps at most.
-Axis axisOf(const Moments& moments) {
-  Axis axis;
-  Symmetric covariance = covarianceOf(moments);
+// The direction in which points vary most, of length 1; of points that are all alike 0. By power
+// iteration from the channel that varies most; the matrix gets a trace of 1, so that the vector
+// shrinks by 3^-kPowerSteps at most.
+PerChannel principalAxis(Symmetric covariance) {
+  PerChannel axis = {};
   const float trace = traceOf(covariance);
-  if (moments.weight > 0)
-    for (int c = 0; c < 3; ++c) axis.mean[c] = moments.first[c] / moments.weight;
   if (!(trace > 0.f)) return axis;
   for (float& value : covariance) value /= trace;
   const auto widest =
       std::max_element(covariance.begin(), covariance.begin() + 3) - covariance.begin();
-  axis.direction[widest] = 1.f;
-  for (int step = 0; step < kPowerSteps; ++step) axis.direction = times(covariance, axis.direction);
-  const float length = std::sqrt(dot(axis.direction, axis.direction));
-  for (float& value : axis.direction) value /= length;
+  axis[widest] = 1.f;
+  for (int step = 0; step < kPowerSteps; ++step) axis = times(covariance, axis);
+  const float length = std::sqrt(dot(axis, axis));
+  for (float& value : axis) value /= length;
   return axis;
 }
 
@@ -179,22 +168,22 @@ struct Line {
   std::array<PerChannel, 2> ends;
 };
 
-Line lineAlong(const Source& source, const Axis& axis, int mask) {
+// Along the principal axis of a region's texels, as far as they reach.
+Line lineThrough(const Source& source, int mask) {
+  const PerChannel mean = meanOf(source, mask);
+  const PerChannel axis = principalAxis(covarianceOf(source, mean, mask));
   float low = 0, high = 0;
   for (int t = 0; t < kTexels; ++t)
     if (mask >> t & 1) {
-      PerChannel offset;
-      for (int c = 0; c < 3; ++c) offset[c] = source.scaled[c][t] - axis.mean[c];
-      const float position = dot(offset, axis.direction);
+      const float position = dot(offsetOf(source, t, mean), axis);
       low = std::min(low, position);
       high = std::max(high, position);
     }
   Line line;
   for (int c = 0; c < 3; ++c) {
-    const float mean = axis.mean[c] / source.channelScale[c] + source.mean[c],
-                direction = axis.direction[c] / source.channelScale[c];
-    line.ends[0][c] = mean + low * direction;
-    line.ends[1][c] = mean + high * direction;
+    const float scale = source.channelScale[c];
+    line.ends[0][c] = source.mean[c] + (mean[c] + low * axis[c]) / scale;
+    line.ends[1][c] = source.mean[c] + (mean[c] + high * axis[c]) / scale;
   }
   return line;
 }
@@ -362,12 +351,34 @@ void refine(const Source& source, std::span<const int> modes, Candidate& candida
   }
 }
 
-Candidate oneRegion(const Source& source, const Moments& all) {
+Candidate oneRegion(const Source& source) {
   Candidate candidate;
-  candidate.lines[0] = lineAlong(source, axisOf(all), kAnyTexel);
+  candidate.lines[0] = lineThrough(source, kAnyTexel);
   settle(source, kOneRegion, candidate);
   refine(source, kOneRegion, candidate);
   return candidate;
+}
+
+// Sums over the texels of a region, of importance times the products of Source::scaled.
+struct Moments {
+  float weight = 0;
+  PerChannel first = {};
+  Symmetric second = {};
+};
+
+Moments momentsOf(const Source& source, int texel) {
+  Moments moments;
+  moments.weight = source.importance[texel];
+  for (int c = 0; c < 3; ++c) moments.first[c] = moments.weight * source.scaled[c][texel];
+  for (int p = 0; p < 6; ++p)
+    moments.second[p] = moments.first[kPairs[p][0]] * source.scaled[kPairs[p][1]][texel];
+  return moments;
+}
+
+void add(Moments& to, const Moments& from, float factor) {
+  to.weight += factor * from.weight;
+  for (int c = 0; c < 3; ++c) to.first[c] += factor * from.first[c];
+  for (int p = 0; p < 6; ++p) to.second[p] += factor * from.second[p];
 }
 
 // The error to expect of a region: what lies off its line, and a share of what lies along it for
@@ -375,48 +386,51 @@ Candidate oneRegion(const Source& source, const Moments& all) {
 // Frobenius norm stands for the largest eigenvalue, which it hardly exceeds where the others are
 // small.
 float promiseOf(const Moments& moments) {
-  const Symmetric m = covarianceOf(moments);
+  if (!(moments.weight > 0.f)) return 0.f;
+  Symmetric m;
+  for (int p = 0; p < 6; ++p)
+    m[p] = moments.second[p] -
+           moments.first[kPairs[p][0]] * moments.first[kPairs[p][1]] / moments.weight;
   const float along = std::sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2] +
                                 2 * (m[3] * m[3] + m[4] * m[4] + m[5] * m[5]));
   return traceOf(m) - along + along / 49.f;
 }
 
-struct Cut {
+struct Promise {
   int partition = 0;
-  std::array<Moments, 2> regions;
-  float promise = 0;
+  float error = kUnknown;
 };
 
-using BestCuts = std::array<Cut, kTriedPartitions>;
-
-// The partitions that promise the smallest errors, the best first.
-BestCuts bestCuts(const Source& source, const Moments& all) {
+// The best first.
+std::array<Promise, kTriedPartitions> bestPartitions(const Source& source) {
   std::array<Moments, kTexels> moments;
-  for (int t = 0; t < kTexels; ++t) moments[t] = momentsOf(source, t);
-  BestCuts best;
-  for (Cut& cut : best) cut.promise = kUnknown;
+  Moments all;
+  for (int t = 0; t < kTexels; ++t) {
+    moments[t] = momentsOf(source, t);
+    add(all, moments[t], 1.f);
+  }
+  std::array<Promise, kTriedPartitions> best;
   for (int partition = 0; partition < bc6h::kPartitions; ++partition) {
-    Cut cut{partition, {all, {}}};
+    Moments first = all, second;
     for (int t = 0; t < kTexels; ++t)
-      if (bc6h::kPartitionMasks[partition] >> t & 1) add(cut.regions[1], moments[t], 1.f);
-    add(cut.regions[0], cut.regions[1], -1.f);
-    cut.promise = promiseOf(cut.regions[0]) + promiseOf(cut.regions[1]);
-    for (Cut& place : best)
-      if (cut.promise < place.promise) std::swap(cut, place);
+      if (bc6h::kPartitionMasks[partition] >> t & 1) add(second, moments[t], 1.f);
+    add(first, second, -1.f);
+    Promise promise{partition, promiseOf(first) + promiseOf(second)};
+    for (Promise& place : best)
+      if (promise.error < place.error) std::swap(promise, place);
   }
   return best;
 }
 
-Candidate twoRegions(const Source& source, const Moments& all) {
-  const BestCuts cuts = bestCuts(source, all);
+Candidate twoRegions(const Source& source) {
+  const auto promises = bestPartitions(source);
   std::array<Candidate, kTriedPartitions> tried;
   for (int i = 0; i < kTriedPartitions; ++i) {
     Fields& fields = tried[i].fields;
     fields.mode = kTwoRegions.front();
-    fields.partition = cuts[i].partition;
+    fields.partition = promises[i].partition;
     for (int region = 0; region < 2; ++region)
-      tried[i].lines[region] =
-          lineAlong(source, axisOf(cuts[i].regions[region]), maskOf(fields, region));
+      tried[i].lines[region] = lineThrough(source, maskOf(fields, region));
     settle(source, kTwoRegions, tried[i]);
   }
   std::ranges::stable_sort(tried, {}, &Candidate::error);
@@ -440,11 +454,9 @@ Bc6hBlock encodeBc6hBlock(const Bc6hTexels& texels) {
   if (std::ranges::all_of(texels, [&](const auto& color) { return color == texels[0]; }))
     return constantBlock(texels[0]);
   const Source source = sourceOf(texels);
-  Moments all;
-  for (int t = 0; t < kTexels; ++t) add(all, momentsOf(source, t), 1.f);
-  Candidate best = oneRegion(source, all);
+  Candidate best = oneRegion(source);
   if (best.error > kGoodEnough)
-    if (const Candidate two = twoRegions(source, all); two.error < best.error) best = two;
+    if (const Candidate two = twoRegions(source); two.error < best.error) best = two;
   return bc6h::pack(best.fields);
 }
 
