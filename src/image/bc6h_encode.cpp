@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/check.hpp"
 #include "image/bc6h.hpp"
 #include "image/bc6h_format.hpp"
 
@@ -451,6 +452,7 @@ Bc6hBlock constantBlock(const std::array<std::uint16_t, 3>& color) {
 }  // namespace
 
 Bc6hBlock encodeBc6hBlock(const Bc6hTexels& texels) {
+  for (const auto& color : texels) CHECK(std::ranges::max(color) <= 0x7bff, "not a finite half");
   if (std::ranges::all_of(texels, [&](const auto& color) { return color == texels[0]; }))
     return constantBlock(texels[0]);
   const Source source = sourceOf(texels);

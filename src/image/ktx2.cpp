@@ -1,9 +1,9 @@
 #include "image/ktx2.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "core/parallel.hpp"
