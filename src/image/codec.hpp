@@ -29,7 +29,7 @@ struct Format {
   Result<Image> (*decode)(ByteView bytes, const std::string& name);
 };
 
-extern const Format kPng, kJpeg, kBmp, kHdr, kExr, kTga;
+extern const Format kPng, kJpeg, kBmp, kHdr, kExr, kKtx2, kTga;
 
 // Encoders give the whole file; `name` is used in messages.
 Result<Bytes> encodePng(const Image& image, const std::string& name);

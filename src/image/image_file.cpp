@@ -12,8 +12,8 @@ namespace {
 using codec::Format;
 
 // TGA has no signature, so it comes last.
-const std::array kFormats = {&codec::kPng, &codec::kJpeg, &codec::kHdr,
-                             &codec::kExr, &codec::kBmp,  &codec::kTga};
+const std::array kFormats = {&codec::kPng, &codec::kJpeg, &codec::kHdr, &codec::kExr,
+                             &codec::kBmp, &codec::kKtx2, &codec::kTga};
 
 std::string extensionOf(const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension().string();
@@ -36,10 +36,11 @@ Result<const Format*> formatOf(codec::ByteView bytes, const std::string& name) {
   const std::string extension = extensionOf(name);
   for (const Format* format : kFormats)
     if (equalIgnoringCase(extension, format->extension)) return format;
-  return error(ErrorKind::Input,
-               "{}: begins with {}, which is none of PNG, JPEG, TGA, BMP, HDR and EXR; convert it "
-               "to one of these",
-               name, firstBytes(bytes));
+  return error(
+      ErrorKind::Input,
+      "{}: begins with {}, which is none of PNG, JPEG, TGA, BMP, HDR, EXR and KTX2; convert it "
+      "to one of these",
+      name, firstBytes(bytes));
 }
 
 Status checkSize(const codec::Header& header, codec::ByteView bytes, const std::string& name,

@@ -1,5 +1,6 @@
-// Image files behind one interface: PNG, JPEG, TGA, BMP, HDR (RGBE), EXR. The content decides the
-// format when reading (the extension only breaks ties), the extension when writing.
+// Image files behind one interface: PNG, JPEG, TGA, BMP, HDR (RGBE), EXR, KTX2 (one layer of HDR,
+// see ktx2.hpp; only read here). The content decides the format when reading (the extension only
+// breaks ties), the extension when writing.
 #pragma once
 
 #include <filesystem>
@@ -18,9 +19,9 @@ struct ImageLimits {
   std::uint64_t maxBytes = 2ull << 30;  // once decoded: 16384 x 8192 as F32 RGBA
 };
 
-// PNG keeps 8 or 16 bits; JPEG, TGA and BMP give U8; HDR gives F32 RGB; EXR gives F32 with the
-// channels R G B A or Y of the part's unnamed layer. U8/U16 values are as stored (sRGB for colour
-// pictures), F32 is linear. `name` is used in messages. Sizes in headers are checked against
+// PNG keeps 8 or 16 bits; JPEG, TGA and BMP give U8; HDR and KTX2 give F32 RGB; EXR gives F32 with
+// the channels R G B A or Y of the part's unnamed layer. U8/U16 values are as stored (sRGB for
+// colour pictures), F32 is linear. `name` is used in messages. Sizes in headers are checked against
 // `limits` and against what the file can hold before anything is allocated.
 Result<Image> decodeImage(std::span<const std::byte> bytes, const std::string& name,
                           const ImageLimits& limits = {});
