@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/check.hpp"
 
@@ -12,16 +14,8 @@ namespace {
 constexpr std::int64_t kSteps = 1024;  // to a texel
 
 struct Point {
-  std::int64_t x, y;  // steps; at most 2^26, so that products of two by kSteps fit
+  std::int64_t x, y;  // steps; from 0 to 2^26, so that products of two have no more than 2^52
 };
-
-std::int64_t floorDivide(std::int64_t a, std::int64_t b) {  // b > 0
-  return a / b - (a % b < 0 ? 1 : 0);
-}
-
-std::int64_t ceilDivide(std::int64_t a, std::int64_t b) {  // b > 0
-  return a / b + (a % b > 0 ? 1 : 0);
-}
 
 struct Box {
   vec2 low{std::numeric_limits<float>::infinity()};
@@ -53,9 +47,10 @@ struct Run {
   std::int64_t begin = std::numeric_limits<std::int64_t>::max();
   std::int64_t end = std::numeric_limits<std::int64_t>::min();
 
-  void include(std::int64_t numerator, std::int64_t denominator) {  // in texels
-    begin = std::min(begin, floorDivide(numerator, denominator));
-    end = std::max(end, ceilDivide(numerator, denominator));
+  // A place in texels, as a fraction; not negative.
+  void include(std::int64_t numerator, std::int64_t denominator) {
+    begin = std::min(begin, numerator / denominator);
+    end = std::max(end, (numerator + denominator - 1) / denominator);
   }
   Run within(int size) const {
     const std::int64_t first = std::min<std::int64_t>(begin, size - 1);

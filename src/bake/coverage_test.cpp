@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/random.hpp"
@@ -78,6 +80,19 @@ TEST(Coverage, OfARectangleIsARectangle) {
     EXPECT_EQ(coverage.mask.size(), ivec2(10, 70));
     EXPECT_EQ(coverage.mask.count(), 700);
     EXPECT_EQ(coverage.least, least);
+  }
+}
+
+TEST(Coverage, RoundsWhatNearlyEndsOnABorder) {
+  for (const float noise : {-4e-4f, 4e-4f}) {
+    const float x = 5.f + noise;
+    const std::vector<FlatTriangle> triangles{{vec2(0), vec2(x, 0), vec2(x, 10)},
+                                              {vec2(x, 20), vec2(10, 20), vec2(x, 30)}};
+    const Coverage coverage = coverageOf(triangles);
+    for (int y = 0; y < 10; ++y) EXPECT_FALSE(coverage.mask.at(5, y));
+    for (int y = 20; y < 30; ++y) EXPECT_FALSE(coverage.mask.at(4, y));
+    EXPECT_TRUE(coverage.mask.at(4, 5));
+    EXPECT_TRUE(coverage.mask.at(5, 25));
   }
 }
 

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
 
 namespace lucerna::bake {
 namespace {
 
-std::uint64_t shifted(const std::uint64_t* words, int by) {
+std::uint64_t shifted(const std::uint64_t* words, unsigned by) {
   return words[0] >> by | words[1] << 1 << (63 - by);
 }
 
@@ -21,7 +22,8 @@ FreeSquares::FreeSquares(int side, int gap)
       rows_(side + 2 * gap),
       words_((rows_ + 63) / 64),
       stride_(words_ + 1),
-      wordsPerGroup_((words_ + 63) / 64) {
+      wordsPerGroup_(static_cast<int>(std::bit_ceil(static_cast<unsigned>(words_ + 63) / 64))),
+      texelShift_(std::countr_zero(static_cast<unsigned>(64 * wordsPerGroup_))) {
   const auto rows = static_cast<std::size_t>(kSquareLevels) * static_cast<std::size_t>(rows_);
   corners_.resize(rows * static_cast<std::size_t>(stride_));
   groups_.resize(rows);
@@ -30,7 +32,7 @@ FreeSquares::FreeSquares(int side, int gap)
     for (int y = 0; y + (1 << level) <= rows_; ++y) {
       if (level > 0)
         for (int word = 0; word < words_; ++word) row(level, y)[word] = cornersAt(level, y, word);
-      resetGroups(level, y);
+      resetGroups(level, y, 0, words_ - 1);
     }
 }
 
@@ -40,8 +42,11 @@ const std::uint64_t* FreeSquares::row(int level, int y) const {
 std::uint64_t* FreeSquares::row(int level, int y) {
   return corners_.data() + (std::ptrdiff_t{level} * rows_ + y) * stride_;
 }
-std::uint64_t& FreeSquares::groups(int level, int y) {
-  return groups_[static_cast<std::size_t>(level * rows_ + y)];
+std::uint64_t FreeSquares::groupsOf(int level, int y) const {
+  return groups_[static_cast<std::size_t>(std::ptrdiff_t{level} * rows_ + y)];
+}
+std::uint64_t& FreeSquares::groupsOf(int level, int y) {
+  return groups_[static_cast<std::size_t>(std::ptrdiff_t{level} * rows_ + y)];
 }
 
 std::uint64_t FreeSquares::cornersAt(int level, int y, int word) const {
@@ -51,19 +56,21 @@ std::uint64_t FreeSquares::cornersAt(int level, int y, int word) const {
   return *low & shifted(low, half) & *high & shifted(high, half);
 }
 
-void FreeSquares::resetGroups(int level, int y) {
-  std::uint64_t bits = 0;
-  for (int word = 0; word < words_; ++word)
-    if (row(level, y)[word] != 0) bits |= std::uint64_t{1} << (word / wordsPerGroup_);
-  groups(level, y) = bits;
+void FreeSquares::resetGroups(int level, int y, int firstWord, int lastWord) {
+  const std::uint64_t* const words = row(level, y);
+  for (int group = firstWord / wordsPerGroup_; group <= lastWord / wordsPerGroup_; ++group) {
+    const int first = group * wordsPerGroup_, end = std::min(first + wordsPerGroup_, words_);
+    const bool any = std::any_of(words + first, words + end, [](auto word) { return word != 0; });
+    const std::uint64_t bit = std::uint64_t{1} << group;
+    groupsOf(level, y) = any ? groupsOf(level, y) | bit : groupsOf(level, y) & ~bit;
+  }
 }
 
 std::uint64_t FreeSquares::groupsThatMayFit(std::span<const Square> squares, int y) const {
   std::uint64_t groups = ~std::uint64_t{0};
   for (const Square& square : squares.first(std::min(squares.size(), kFilterSquares))) {
-    const std::uint64_t read =
-        groups_[static_cast<std::size_t>(square.level * rows_ + y + square.corner.y)] >>
-        (square.corner.x / 64 / wordsPerGroup_);
+    const std::uint64_t read = groupsOf(square.level, y + square.corner.y) >>
+                               (static_cast<unsigned>(square.corner.x) >> texelShift_);
     groups &= read | read >> 1;
     if (groups == 0) break;
   }
@@ -74,8 +81,9 @@ std::uint64_t FreeSquares::placesThatFit(std::span<const Square> squares, int y,
   const std::uint64_t* const base = corners_.data() + std::ptrdiff_t{y} * stride_ + word;
   std::uint64_t places = ~std::uint64_t{0};
   for (const auto& [corner, level] : squares) {
-    places &= shifted(base + (std::ptrdiff_t{level} * rows_ + corner.y) * stride_ + corner.x / 64,
-                      corner.x % 64);
+    const auto x = static_cast<unsigned>(corner.x);
+    places &=
+        shifted(base + (std::ptrdiff_t{level} * rows_ + corner.y) * stride_ + (x >> 6), x & 63);
     if (places == 0) break;
   }
   return places;
@@ -106,7 +114,7 @@ void FreeSquares::take(std::span<const Square> squares, ivec2 size, ivec2 place)
     for (int y = low.y; y < high.y; ++y) clearRun(row(0, y), low.x, high.x);
   }
   const ivec2 high = place + size + 2 * gap_;
-  for (int y = place.y; y < high.y; ++y) resetGroups(0, y);
+  for (int y = place.y; y < high.y; ++y) resetGroups(0, y, place.x / 64, (high.x - 1) / 64);
   for (int level = 1; level < kSquareLevels; ++level) updateLevel(level, place, high);
 }
 
@@ -115,7 +123,7 @@ void FreeSquares::updateLevel(int level, ivec2 low, ivec2 high) {
   const int firstWord = std::max(low.x - side + 1, 0) / 64, lastWord = (high.x - 1) / 64;
   const int end = std::min(high.y, rows_ - side + 1);
   for (int y = std::max(low.y - side + 1, 0); y < end; ++y)
-    if (groups(level, y) != 0) updateRow(level, y, firstWord, lastWord);
+    if (groupsOf(level, y) != 0) updateRow(level, y, firstWord, lastWord);
 }
 
 void FreeSquares::updateRow(int level, int y, int firstWord, int lastWord) {
@@ -126,7 +134,7 @@ void FreeSquares::updateRow(int level, int y, int firstWord, int lastWord) {
       words[word] = cornersAt(level, y, word);
       emptied |= words[word] == 0;
     }
-  if (emptied) resetGroups(level, y);
+  if (emptied) resetGroups(level, y, firstWord, lastWord);
 }
 
 }  // namespace lucerna::bake

@@ -33,18 +33,20 @@ class FreeSquares {
  private:
   const std::uint64_t* row(int level, int y) const;
   std::uint64_t* row(int level, int y);
-  std::uint64_t& groups(int level, int y);
+  std::uint64_t groupsOf(int level, int y) const;
+  std::uint64_t& groupsOf(int level, int y);
   std::uint64_t cornersAt(int level, int y, int word) const;
   std::uint64_t groupsThatMayFit(std::span<const Square> squares, int y) const;
   std::uint64_t placesThatFit(std::span<const Square> squares, int y, int word) const;
   void updateLevel(int level, ivec2 low, ivec2 high);
   void updateRow(int level, int y, int firstWord, int lastWord);
-  void resetGroups(int level, int y);
+  void resetGroups(int level, int y, int firstWord, int lastWord);
 
   int side_, gap_;
   int rows_;            // side and a margin of the gap at each end, in which nothing is free
   int words_, stride_;  // of a row; and with one word more, which is 0
-  int wordsPerGroup_;
+  int wordsPerGroup_;   // a power of two; 64 groups are enough for a row
+  int texelShift_;      // log2 of the texels of a group
   std::vector<std::uint64_t> corners_;  // of free squares, bits in rows, for each level
   std::vector<std::uint64_t> groups_;   // of words that are not 0, for each level and row
 };

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/random.hpp"
@@ -26,7 +28,8 @@ TexelMask someShape(Random& random, int most) {
 // A map of bytes, and every place tried from below and from the left.
 class Slow {
  public:
-  Slow(int side, int gap) : side_(side), gap_(gap), taken_(static_cast<std::size_t>(side * side)) {}
+  Slow(int side, int gap)
+      : side_(side), gap_(gap), taken_(static_cast<std::size_t>(std::ptrdiff_t{side} * side)) {}
 
   std::optional<ivec2> find(const TexelMask& mask, int fromRow) {
     for (int y = fromRow; y + mask.size().y <= side_; ++y)
@@ -41,7 +44,7 @@ class Slow {
   }
 
  private:
-  char& at(int x, int y) { return taken_[static_cast<std::size_t>(y * side_ + x)]; }
+  char& at(int x, int y) { return taken_[static_cast<std::size_t>(std::ptrdiff_t{y} * side_ + x)]; }
   bool fits(const TexelMask& mask, ivec2 place) {
     for (int y = 0; y < mask.size().y; ++y)
       for (int x = 0; x < mask.size().x; ++x)
@@ -85,6 +88,16 @@ TEST(FreeSquares, StopsAtTheLastRow) {
   for (int x = 0; x < 10; ++x) map.take(one, ivec2(1), {x, 2});
   EXPECT_FALSE(map.find(one, ivec2(1), 2, 3));
   EXPECT_EQ(map.find(one, ivec2(1), 2, 4), ivec2(0, 3));
+}
+
+TEST(FreeSquares, KeepsTheWholeRectangleInside) {
+  FreeSquares map(4, 0);
+  const std::vector<Square> one{{}};
+  for (const ivec2 expected : {ivec2(0), ivec2(1, 0), ivec2(0, 1)}) {
+    const auto place = map.find(one, ivec2(3, 2), 0, 3);  // all but one texel are empty
+    ASSERT_EQ(place, expected);
+    map.take(one, ivec2(3, 2), *place);
+  }
 }
 
 // More than 64 words to a row.

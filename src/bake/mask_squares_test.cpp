@@ -1,7 +1,11 @@
+// Shapes put together again from their squares.
 #include "bake/mask_squares.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include "core/random.hpp"

@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
 #include "core/random.hpp"
 
@@ -71,13 +76,15 @@ class Painting {
  public:
   Painting(int maps, int side)
       : side_(side),
-        owners_(static_cast<std::size_t>(maps) * static_cast<std::size_t>(side * side)) {}
+        owners_(static_cast<std::size_t>(maps) *
+                static_cast<std::size_t>(std::ptrdiff_t{side} * side)) {}
 
   bool has(ivec2 texel) const {
     return std::min(texel.x, texel.y) >= 0 && std::max(texel.x, texel.y) < side_;
   }
   std::uint32_t& at(int map, ivec2 texel) {
-    return owners_[static_cast<std::size_t>((map * side_ + texel.y) * side_ + texel.x)];
+    return owners_[static_cast<std::size_t>((std::ptrdiff_t{map} * side_ + texel.y) * side_ +
+                                            texel.x)];
   }
   // Someone else's number where there is one less than gap + 1 texels away.
   std::uint32_t neighbour(int map, ivec2 texel, int gap, std::uint32_t owner) {

@@ -34,7 +34,7 @@ class TexelMask {
 
   // An order of some kind.
   std::strong_ordering operator<=>(const TexelMask& other) const;
-  bool operator==(const TexelMask& other) const { return *this <=> other == 0; }
+  bool operator==(const TexelMask& other) const { return (*this <=> other) == 0; }
 
  private:
   ivec2 size_{0};
