@@ -136,17 +136,25 @@ std::vector<std::uint32_t> packingOrder(std::span<const ivec2> sizes) {
   return order;
 }
 
-// Factor on the density with which charts would fill most of the maps.
-double fittingDensity(std::span<const ivec2> sizes, const PackSettings& settings) {
-  constexpr double kFilled = 0.85;
+double texelsOf(std::span<const ivec2> sizes) {
   double texels = 0;
   for (const ivec2 size : sizes) texels += static_cast<double>(size.x) * size.y;
-  return std::sqrt(kFilled * settings.mostMaps * settings.side * settings.side / texels);
+  return texels;
 }
 
 }  // namespace
 
-Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings) {
+ivec2 placedSize(const Place& place, ivec2 size) {
+  return place.turned ? ivec2(size.y, size.x) : size;
+}
+
+vec2 placedPoint(const Place& place, ivec2 size, vec2 point) {
+  if (place.turned) point = vec2(static_cast<float>(size.y) - point.y, point.x);
+  if (place.reversed) point = vec2(placedSize(place, size)) - point;
+  return vec2(place.corner) + point;
+}
+
+Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings) {
   for (std::size_t i = 0; i < sizes.size(); ++i)
     if (const int longest = std::max(sizes[i].x, sizes[i].y); longest > settings.side)
       return error(
@@ -155,6 +163,21 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
           "this one makes it fit, or larger maps do",
           i, sizes[i].x, sizes[i].y, settings.side, settings.side,
           static_cast<double>(settings.side) / longest);
+  return {};
+}
+
+Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings) {
+  constexpr double kFilled = 0.85;  // of the maps, about
+  const double factor =
+      std::sqrt(kFilled * settings.mostMaps * settings.side * settings.side / texels);
+  return error(ErrorKind::Input,
+               "{} charts need more than {} maps of {} x {} texels; a texel density of about "
+               "{:.3g} of this one makes them fit, or more or larger maps do",
+               charts, settings.mostMaps, settings.side, settings.side, factor);
+}
+
+Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings) {
+  LUCERNA_TRY_VOID(eachFits(sizes, settings));
   Packing packing;
   packing.places.resize(sizes.size());
   std::vector<Skyline> maps;
@@ -167,12 +190,7 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
       --map;
     } else {
       if (static_cast<int>(maps.size()) == settings.mostMaps)
-        return error(ErrorKind::Input,
-                     "{} charts need more than {} maps of {} x {} texels; a texel density of about "
-                     "{:.3g} of "
-                     "this one makes them fit, or more or larger maps do",
-                     sizes.size(), settings.mostMaps, settings.side, settings.side,
-                     fittingDensity(sizes, settings));
+        return tooManyMaps(sizes.size(), texelsOf(sizes), settings);
       maps.emplace_back(settings.side + settings.gap);
       spot = maps[map].find(size);
     }

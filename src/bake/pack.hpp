@@ -18,9 +18,16 @@ struct PackSettings {
 
 struct Place {
   int map = 0;
-  ivec2 corner{0};      // the least texel
-  bool turned = false;  // by a right angle: width and height have changed places
+  ivec2 corner{0};        // the least texel
+  bool turned = false;    // by a right angle, counter-clockwise
+  bool reversed = false;  // by half a turn; after turned
 };
+
+// Of a rectangle of this size where it lies: width and height change places if it is turned.
+ivec2 placedSize(const Place& place, ivec2 size);
+
+// Where a point of the rectangle, which goes from (0, 0) to size, lies in the map; in texels.
+vec2 placedPoint(const Place& place, ivec2 size, vec2 point);
 
 struct Packing {
   std::vector<Place> places;  // of each rectangle
@@ -35,5 +42,10 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
 // Share of the texels of all maps but the last that rectangles cover, without their gaps; of the
 // only map, if there is one alone. 0 of nothing.
 double occupancy(const Packing& packing, std::span<const ivec2> sizes, int side);
+
+// The errors of pack(), for who packs other shapes: each has to fit into a map by itself, and all
+// into the maps that are allowed. texels: what the shapes cover.
+Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings);
+Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings);
 
 }  // namespace lucerna::bake

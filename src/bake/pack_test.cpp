@@ -22,10 +22,6 @@ std::vector<ivec2> someSizes(std::size_t count, float most, std::uint64_t seed) 
   return sizes;
 }
 
-ivec2 placedSize(const Place& place, ivec2 size) {
-  return place.turned ? ivec2(size.y, size.x) : size;
-}
-
 // Each rectangle has its texels and those of the gap around it for itself.
 void expectApart(const Packing& packing, std::span<const ivec2> sizes,
                  const PackSettings& settings) {
