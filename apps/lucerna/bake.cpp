@@ -48,17 +48,15 @@ double millions(std::uint64_t count) {
 }
 
 Json describe(const bake::Plan& plan) {
-  std::vector<ivec2> sizes;
-  for (const bake::Chart& chart : plan.charts.charts) sizes.push_back(chart.size);
   std::size_t lights = 0;
   for (const bake::LightGroup& group : plan.groups) lights += group.lights.size();
   return {{"scene", plan.world.scene->name},
           {"triangles", plan.world.triangleCount()},
           {"charts", plan.charts.charts.size()},
           {"texels", plan.texels()},
-          {"maps", plan.packing.maps},
+          {"maps", plan.packed.packing.maps},
           {"side", plan.settings.pack.side},
-          {"occupancy", bake::occupancy(plan.packing, sizes, plan.settings.pack.side)},
+          {"occupancy", bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side)},
           {"units", plan.units.size()},
           {"lights", lights},
           {"groups", plan.groups.size() - 1}};
@@ -85,7 +83,7 @@ void sayPlan(const bake::Plan& plan) {
   const Json d = describe(plan);
   log::info("{} triangles in {} charts, {:.1f} million texels in {} maps of {} x {}",
             d["triangles"].get<std::size_t>(), d["charts"].get<std::size_t>(),
-            millions(plan.texels()), plan.packing.maps, plan.settings.pack.side,
+            millions(plan.texels()), plan.packed.packing.maps, plan.settings.pack.side,
             plan.settings.pack.side);
 }
 

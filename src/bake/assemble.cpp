@@ -85,7 +85,7 @@ void dilateGroup(std::vector<LitTexel>& lit, const MapTexels& texels) {
 BakedLight emptyLight(const Plan& plan) {
   BakedLight baked;
   const int side = plan.settings.pack.side;
-  const auto count = static_cast<std::size_t>(plan.packing.maps);
+  const auto count = static_cast<std::size_t>(plan.packed.packing.maps);
   baked.texels.side = side;
   baked.texels.touched.assign(count, std::vector<bool>(static_cast<std::size_t>(side) * side));
   for (std::size_t i = 0; i < count; ++i)
@@ -98,7 +98,7 @@ void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLigh
   for (std::uint32_t b = 0; b < unit.blocks; ++b) {
     const Block& block = plan.blocks[unit.firstBlock + b];
     const BlockLight& blockLight = light.blocks[b];
-    const int map = plan.packing.places[block.chart].map;
+    const int map = plan.packed.packing.places[block.chart].map;
     std::size_t at = 0;
     for (int y = 0; y < block.size.y; ++y)
       for (int x = 0; x < block.size.x; ++x) {

@@ -81,10 +81,10 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
     return error(ErrorKind::Input,
                  "'{}': found no triangle that takes light; wanted a scene with surfaces",
                  scene.name);
-  std::vector<ivec2> sizes;
-  for (const Chart& chart : plan.charts.charts) sizes.push_back(chart.size);
-  LUCERNA_TRY(packing, pack(sizes, settings.pack));
-  plan.packing = std::move(packing);
+  std::vector<std::span<const FlatTriangle>> shapes;
+  for (const Chart& chart : plan.charts.charts) shapes.emplace_back(chart.corners);
+  LUCERNA_TRY(packed, packCharts(shapes, settings.pack));
+  plan.packed = std::move(packed);
   for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i)
     addBlocks(plan.blocks, plan.charts.charts[i], i);
   plan.units = shareOut(plan.blocks);
@@ -96,18 +96,18 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
 }
 
 ivec2 placed(const Plan& plan, std::uint32_t chart, ivec2 texel) {
-  const Place& place = plan.packing.places[chart];
-  return place.corner + (place.turned ? ivec2(texel.y, texel.x) : texel);
+  return ivec2(glm::floor(placed(plan, chart, vec2(texel) + 0.5f)));
 }
 
 vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point) {
-  const Place& place = plan.packing.places[chart];
-  return vec2(place.corner) + (place.turned ? vec2(point.y, point.x) : point);
+  const PackedCharts& packed = plan.packed;
+  return placedPoint(packed.packing.places[chart], packed.masks[chart].size(),
+                     point - packed.least[chart]);
 }
 
 lightmap::Layout layoutOf(const Plan& plan) {
   lightmap::Layout layout{.side = plan.settings.pack.side,
-                          .maps = plan.packing.maps,
+                          .maps = plan.packed.packing.maps,
                           .charts = static_cast<int>(plan.charts.charts.size()),
                           .objects = {}};
   layout.objects.resize(plan.world.scene->objects.size());
@@ -118,9 +118,11 @@ lightmap::Layout layoutOf(const Plan& plan) {
     auto& triangles = layout.objects[plan.world.objects[chart.object].object];
     for (std::size_t k = 0; k < chart.triangles.size(); ++k) {
       lightmap::TrianglePlace& place = triangles[chart.triangles[k]];
-      place.map = plan.packing.places[i].map;
+      place.map = plan.packed.packing.places[i].map;
       place.chart = i;
-      for (std::size_t c = 0; c < 3; ++c) place.corners[c] = placed(plan, i, chart.corners[k][c]);
+      const auto most = static_cast<float>(plan.settings.pack.side);
+      for (std::size_t c = 0; c < 3; ++c)
+        place.corners[c] = glm::clamp(placed(plan, i, chart.corners[k][c]), 0.f, most);
     }
   }
   return layout;

@@ -9,7 +9,7 @@
 
 #include "bake/charts.hpp"
 #include "bake/light_set.hpp"
-#include "bake/pack.hpp"
+#include "bake/pack_masks.hpp"
 #include "bake/samples.hpp"
 #include "bake/world.hpp"
 #include "core/result.hpp"
@@ -49,7 +49,7 @@ struct Plan {
   BakeSettings settings;
   World world;
   Charts charts;
-  Packing packing;  // of the charts
+  PackedCharts packed;  // as charts
   std::vector<Block> blocks;
   std::vector<Unit> units;
   std::vector<LightGroup> groups;  // [0] is what is always on

@@ -207,7 +207,8 @@ void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
 }
 
 void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
-  constexpr double kLeastArea = 1e-5;  // texels^2
+  // texels^2. A texel that is touched by less may be none of the chart's: coverage.hpp rounds.
+  constexpr double kLeastArea = 4e-3;
   const auto& corners = chart_.corners[triangle];
   const Barycentric barycentric(corners);
   if (barycentric.area2 == 0.) return;

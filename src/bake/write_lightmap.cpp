@@ -77,7 +77,7 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   for (std::size_t i = 0; i < plan.charts.charts.size(); ++i) {
     lightmap::ObjectEntry& object = manifest.objects[plan.charts.charts[i].object];
     ++object.charts;
-    const int map = plan.packing.places[i].map;
+    const int map = plan.packed.packing.places[i].map;
     if (std::ranges::find(object.maps, map) == object.maps.end()) object.maps.push_back(map);
   }
   for (lightmap::ObjectEntry& object : manifest.objects) std::ranges::sort(object.maps);

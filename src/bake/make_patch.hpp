@@ -1,0 +1,58 @@
+// Patches (lightmap/patch.hpp) of the light of a group.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/file.hpp"
+#include "lightmap/layout.hpp"
+#include "lightmap/patch.hpp"
+
+namespace lucerna::bake {
+
+struct LitTexel {
+  std::uint16_t map = 0, x = 0, y = 0;
+  vec3 value{0.f};  // irradiance; finite, not negative
+};
+
+struct GroupLight {
+  std::string group{};
+  vec3 color{1.f};  // of its lights, linear, times intensity: what is factored out; lights that
+                    // differ: their sum, or 1
+  std::span<const LitTexel> texels{};  // by map, row, column; the gap's filled texels, too
+};
+
+// At the group's own colour: a brighter one makes what is off brighter, too.
+struct PatchTolerance {
+  float light = 1.f / 255.f;   // irradiance by which a texel may be off
+  float black = 1.f / 4096.f;  // irradiance up to which it is none at all; at most `light`
+};
+
+struct MadePatch {
+  lightmap::Patch patch{};
+  Bytes bytes{};                 // its file
+  std::uint64_t otherBytes = 0;  // of the form that was not kept
+  float worst = 0.f;  // irradiance by which a texel is off: more than the tolerance only where
+                      // light is so strong that 1/131070 of it is more
+};
+
+// May make the patches of several groups at once.
+class PatchMaker {
+ public:
+  // used: of each map, row by row, the texels that the scene ever shows: on charts and in the gap
+  // beside them. It outlives the maker.
+  PatchMaker(const lightmap::Layout& layout, std::span<const std::vector<bool>> used);
+
+  // Makes both forms and keeps the smaller. A value a texel is kept instead of three if all light
+  // has the group's colour, to an eighth of the tolerance.
+  MadePatch make(const GroupLight& light, const PatchTolerance& tolerance = {}) const;
+
+ private:
+  int side_, maps_;
+  std::span<const std::vector<bool>> used_;
+  std::vector<lightmap::PatchRoot> roots_;  // of all triangles of the layout
+};
+
+}  // namespace lucerna::bake
