@@ -1,0 +1,232 @@
+#include "bake/curved_charts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "bake/chart_overlap.hpp"
+#include "bake/smallest_rectangle.hpp"
+#include "bake/stretch.hpp"
+#include "bake/unfold.hpp"
+#include "core/parallel.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+constexpr double kNearlyFlat = 0.09;  // rad: a cone of normals that a projection stretches by 0.4 %
+constexpr double kTouch = 2e-5;       // of a chart's longer side: less is no overlap
+constexpr std::size_t kRegionsAtOnce = 16;  // that a thread takes
+
+using Placed = std::vector<std::array<glm::dvec2, 3>>;  // corners of each triangle
+
+// A region by itself.
+struct Cut {
+  Piece piece;
+  std::vector<std::uint32_t> across;  // of each side, or Surface::kNone
+};
+
+Cut cutOut(const Surface& surface, const Region& region) {
+  Cut cut;
+  const std::size_t sides = 3 * region.triangles.size();
+  cut.across.assign(sides, Surface::kNone);
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const std::uint32_t other = surface.across[3 * region.triangles[i / 3] + i % 3];
+    if (other == Surface::kNone) continue;
+    const auto place = std::ranges::lower_bound(region.triangles, other / 3);
+    if (place != region.triangles.end() && *place == other / 3)
+      cut.across[i] =
+          static_cast<std::uint32_t>(3 * (place - region.triangles.begin())) + other % 3;
+  }
+  // Corners are one point where sides join them; a seam within the region keeps two.
+  std::vector<std::uint32_t> first(sides);
+  std::iota(first.begin(), first.end(), 0u);
+  const auto firstOf = [&](std::uint32_t i) {
+    while (first[i] != i) i = first[i] = first[first[i]];
+    return i;
+  };
+  const auto unite = [&](std::uint32_t a, std::uint32_t b) {
+    a = firstOf(a), b = firstOf(b);
+    first[std::max(a, b)] = std::min(a, b);
+  };
+  const auto end = [](std::uint32_t side) { return side % 3 == 2 ? side - 2 : side + 1; };
+  for (std::uint32_t i = 0; i < sides; ++i)
+    if (const std::uint32_t other = cut.across[i]; other != Surface::kNone && i < other)
+      unite(i, end(other)), unite(end(i), other);
+  std::vector<std::uint32_t> pointOf(sides);
+  cut.piece.triangles.resize(region.triangles.size());
+  const glm::dvec3 base(surface.corners[region.triangles[0]][0]);
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    if (firstOf(i) == i) {
+      pointOf[i] = static_cast<std::uint32_t>(cut.piece.points.size());
+      cut.piece.points.push_back(glm::dvec3(surface.corners[region.triangles[i / 3]][i % 3]) -
+                                 base);
+    }
+    cut.piece.triangles[i / 3][i % 3] = pointOf[firstOf(i)];
+  }
+  return cut;
+}
+
+std::vector<glm::dvec2> project(const Piece& piece, glm::dvec3 axis) {
+  const glm::dvec3 u = glm::normalize(std::abs(axis.y) < 0.8 ? glm::dvec3(axis.z, 0, -axis.x)
+                                                             : glm::dvec3(0, -axis.z, axis.y));
+  const glm::dvec3 v = glm::cross(axis, u);
+  std::vector<glm::dvec2> result;
+  for (const glm::dvec3 p : piece.points) result.emplace_back(glm::dot(p, u), glm::dot(p, v));
+  return result;
+}
+
+double crossOf(glm::dvec2 a, glm::dvec2 b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+// The area of all becomes what it is in space.
+void scaleToArea(const Piece& piece, std::vector<glm::dvec2>& at) {
+  double wanted = 0, found = 0;
+  for (const auto& [a, b, c] : piece.triangles) {
+    wanted += glm::length(
+        glm::cross(piece.points[b] - piece.points[a], piece.points[c] - piece.points[a]));
+    found += crossOf(at[b] - at[a], at[c] - at[a]);
+  }
+  if (found > 0)
+    for (glm::dvec2& point : at) point *= std::sqrt(wanted / found);
+}
+
+bool stretchedAbove(double most, const Piece& piece, const std::vector<glm::dvec2>& at) {
+  return !std::ranges::all_of(piece.triangles, [&](const std::array<std::uint32_t, 3>& t) {
+    const Stretch stretch = stretchOf({piece.points[t[0]], piece.points[t[1]], piece.points[t[2]]},
+                                      {at[t[0]], at[t[1]], at[t[2]]});
+    return stretch.most <= most && stretch.least >= 1 / most;  // false of NaN, too
+  });
+}
+
+// In the smallest rectangle around all points; nothing if triangles overlap.
+std::optional<Chart> placed(const Piece& piece, std::vector<glm::dvec2> at) {
+  const Rectangle around = smallestRectangle(at);
+  for (glm::dvec2& p : at) {
+    p -= around.corner;
+    p = {glm::dot(p, around.along), glm::dot(p, around.across())};
+  }
+  Placed triangles;
+  for (const auto& [a, b, c] : piece.triangles) triangles.push_back({at[a], at[b], at[c]});
+  if (overlap(triangles, kTouch * std::max(around.size.x, around.size.y))) return {};
+  Chart chart;
+  chart.size = vec2(around.size);
+  for (const auto& [a, b, c] : triangles) {
+    const auto inside = [&](glm::dvec2 p) { return glm::clamp(vec2(p), vec2(0.f), chart.size); };
+    chart.corners.push_back({inside(a), inside(b), inside(c)});
+  }
+  return chart;
+}
+
+// Steps over sides from one triangle to each.
+std::vector<std::uint32_t> stepsFrom(const Cut& cut, std::uint32_t first) {
+  std::vector<std::uint32_t> steps(cut.piece.triangles.size(), Surface::kNone);
+  std::vector<std::uint32_t> queue{first};
+  steps[first] = 0;
+  for (std::size_t next = 0; next < queue.size(); ++next)
+    for (std::uint32_t side = 3 * queue[next]; side < 3 * queue[next] + 3; ++side)
+      if (const std::uint32_t other = cut.across[side];
+          other != Surface::kNone && steps[other / 3] == Surface::kNone) {
+        steps[other / 3] = steps[queue[next]] + 1;
+        queue.push_back(other / 3);
+      }
+  return steps;
+}
+
+// Makes the charts of one region.
+class Charter {
+ public:
+  Charter(const Surface& surface, const CurvedSettings& settings)
+      : surface_(surface), settings_(settings) {}
+
+  std::vector<Chart> run(Region whole) {
+    std::vector<Chart> charts;
+    std::vector<Region> waiting{std::move(whole)};
+    while (!waiting.empty()) {
+      const Region region = std::move(waiting.back());
+      waiting.pop_back();
+      const Cut cut = cutOut(surface_, region);
+      if (std::optional<Chart> chart = chartOf(region, cut.piece))
+        charts.push_back(std::move(*chart));
+      else
+        std::ranges::move(split(region, cut), std::back_inserter(waiting));
+    }
+    return charts;
+  }
+
+ private:
+  // Unfolded, or else projected on the plane across the axis, which flips nothing and stretches
+  // only as much as the cone is wide. Nothing if neither will do.
+  std::optional<Chart> chartOf(const Region& region, const Piece& piece) const {
+    const std::uint32_t part = surface_.flatPart[region.triangles[0]];
+    const bool flat = std::ranges::all_of(
+        region.triangles, [&](std::uint32_t t) { return surface_.flatPart[t] == part; });
+    const std::vector<glm::dvec2> projected = project(piece, region.axis);
+    for (const bool unfolding : {true, false}) {
+      if (unfolding && region.cone <= kNearlyFlat) continue;
+      std::vector<glm::dvec2> at = unfolding ? unfold(piece, projected) : projected;
+      if (!flat) scaleToArea(piece, at);
+      const bool single = piece.triangles.size() == 1;
+      if (!single && stretchedAbove(settings_.mostStretch, piece, at)) continue;
+      std::optional<Chart> chart = placed(piece, std::move(at));
+      if (!chart) continue;
+      chart->triangles = region.triangles;
+      if (flat) chart->normal = vec3(region.axis);
+      return chart;
+    }
+    return {};
+  }
+
+  // In two, around the triangles that are farthest from each other.
+  std::array<Region, 2> split(const Region& region, const Cut& cut) const {
+    const auto farthest = [&](std::uint32_t from) {
+      const auto steps = stepsFrom(cut, from);
+      return static_cast<std::uint32_t>(std::ranges::max_element(steps) - steps.begin());
+    };
+    const std::uint32_t one = farthest(0), other = farthest(one);
+    const auto toOne = stepsFrom(cut, one), toOther = stepsFrom(cut, other);
+    std::array<Region, 2> parts;
+    for (std::size_t i = 0; i < region.triangles.size(); ++i)
+      parts[toOne[i] <= toOther[i] ? 0 : 1].triangles.push_back(region.triangles[i]);
+    for (Region& part : parts) chooseAxis(part, region.axis);
+    return parts;
+  }
+
+  void chooseAxis(Region& part, glm::dvec3 before) const {
+    glm::dvec3 sum(0);
+    for (const std::uint32_t t : part.triangles)
+      sum += static_cast<double>(surface_.shapes[t].area) * glm::dvec3(surface_.shapes[t].normal);
+    part.axis = glm::normalize(sum);
+    part.cone = coneAround(part.axis, surface_, part.triangles);
+    const double cone = coneAround(before, surface_, part.triangles);
+    if (!(part.cone < cone)) part.axis = before, part.cone = cone;
+  }
+
+  const Surface& surface_;
+  const CurvedSettings& settings_;
+};
+
+}  // namespace
+
+CurvedCharts curvedCharts(std::span<const vec3> positions, std::span<const std::uint32_t> indices,
+                          const CurvedSettings& settings) {
+  const Surface surface = surfaceOf(positions, indices, std::cos(settings.crease));
+  std::vector<Region> regions = growRegions(surface, settings.growth);
+  std::vector<std::vector<Chart>> found(regions.size());
+  parallelFor(regions.size(), kRegionsAtOnce, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      found[i] = Charter(surface, settings).run(std::move(regions[i]));
+  });
+  CurvedCharts result;
+  for (std::vector<Chart>& charts : found)
+    std::ranges::move(charts, std::back_inserter(result.charts));
+  std::ranges::sort(result.charts, {}, [](const Chart& chart) { return chart.triangles[0]; });
+  for (std::uint32_t t = 0; t < surface.triangles(); ++t)
+    if (surface.shapes[t].area <= 0.f) result.degenerate.push_back(t);
+  return result;
+}
+
+}  // namespace lucerna::bake
