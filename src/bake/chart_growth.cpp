@@ -38,9 +38,10 @@ struct Part {
   glm::dvec3 sum{0};  // of the normals, by area
   double area = 0, perimeter = 0;
   Cone cone;
-  std::uint32_t triangles = 0, changes = 0;
+  glm::dvec3 low{1e300}, high{-1e300};
+  std::uint32_t changes = 0;
   bool alive = true;
-  std::uint32_t last = 0;                                    // triangle, of the list of them
+  std::uint32_t last = Surface::kNone;                       // triangle, of the ring of them
   std::vector<std::pair<std::uint32_t, double>> neighbours;  // and lengths shared, in rising order
 
   double bend() const { return area - glm::length(sum); }  // integral of |n - mean|^2 / 2
@@ -92,6 +93,7 @@ class Merger {
 
   const Surface& surface_;
   GrowthSettings settings_;
+  float cosCrease_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> next_;  // triangle of the same part, in a ring
   std::priority_queue<Merge> merges_;
@@ -105,6 +107,7 @@ double sideLength(const Surface& surface, std::uint32_t side) {
 Merger::Merger(const Surface& surface, const GrowthSettings& settings)
     : surface_(surface),
       settings_(settings),
+      cosCrease_(std::cos(settings.crease)),
       parts_(surface.flatNormals.size()),
       next_(surface.triangles()) {
   for (std::uint32_t t = 0; t < surface.triangles(); ++t)
@@ -124,7 +127,10 @@ void Merger::addTriangle(std::uint32_t triangle) {
   const TriangleShape& shape = surface_.shapes[triangle];
   part.sum += static_cast<double>(shape.area) * glm::dvec3(shape.normal);
   part.area += shape.area;
-  if (part.triangles++ == 0) part.last = next_[triangle] = triangle;
+  for (const vec3 corner : surface_.corners[triangle])
+    part.low = glm::min(part.low, glm::dvec3(corner)),
+    part.high = glm::max(part.high, glm::dvec3(corner));
+  if (part.last == Surface::kNone) part.last = next_[triangle] = triangle;
   next_[triangle] = std::exchange(next_[part.last], triangle);
   part.last = triangle;
   for (std::uint32_t side = 3 * triangle; side < 3 * triangle + 3; ++side) {
@@ -133,7 +139,9 @@ void Merger::addTriangle(std::uint32_t triangle) {
     if (neighbour == number) continue;
     const double length = sideLength(surface_, side);
     part.perimeter += length;
-    if (neighbour != Surface::kNone) share(number, neighbour, length);
+    if (neighbour != Surface::kNone &&
+        glm::dot(shape.normal, surface_.shapes[other / 3].normal) >= cosCrease_)
+      share(number, neighbour, length);
   }
 }
 
@@ -159,9 +167,10 @@ double Merger::coneOf(std::uint32_t part, glm::dvec3 axis) const {
 
 void Merger::propose(std::uint32_t a, std::uint32_t b, double shared) {
   if (a > b) std::swap(a, b);
-  Part& first = parts_[a];
-  Part& second = parts_[b];
-  if (first.triangles + second.triangles > settings_.mostTriangles) return;
+  const Part &first = parts_[a], &second = parts_[b];
+  const double diagonal =
+      glm::distance(glm::min(first.low, second.low), glm::max(first.high, second.high));
+  if (diagonal > settings_.longest) return;
   Part both;
   both.sum = first.sum + second.sum;
   both.area = first.area + second.area;
@@ -183,7 +192,8 @@ void Merger::merge(std::uint32_t a, std::uint32_t b, const Cone& cone) {
   into.area += gone.area;
   into.perimeter += gone.perimeter;
   into.cone = cone;
-  into.triangles += gone.triangles;
+  into.low = glm::min(into.low, gone.low);
+  into.high = glm::max(into.high, gone.high);
   ++into.changes;
   std::swap(next_[into.last], next_[gone.last]);
   for (const auto& [neighbour, shared] : gone.neighbours) {

@@ -12,9 +12,10 @@
 namespace lucerna::bake {
 
 struct GrowthSettings {
-  float cone = 0.9f;    // rad: the most between an axis and the normals; below pi / 2
-  float compact = 6.f;  // perimeter^2 / (4 pi area) that merging may reach
-  std::uint32_t mostTriangles = 8192;  // of a chart; flat parts may have more
+  float crease = 0.7f;   // rad: no parts are merged over edges that bend more
+  float cone = 0.9f;     // rad: the most between an axis and the normals; below pi / 2
+  float compact = 6.f;   // perimeter^2 / (4 pi area) that merging may reach
+  float longest = 1e9f;  // m: the most of the diagonal of the box around merged parts
 };
 
 // Triangles that are joined. All normals lie within `cone` (rad) of the axis (unit).

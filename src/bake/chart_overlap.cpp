@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace lucerna::bake {
@@ -19,25 +17,25 @@ Box boxOf(const Corners& t) {
   return {glm::min(glm::min(t[0], t[1]), t[2]), glm::max(glm::max(t[0], t[1]), t[2])};
 }
 
-// How far b reaches over the side of `a` that it reaches over least.
-double depthInside(const Corners& a, const Corners& b) {
-  double least = std::numeric_limits<double>::infinity();
+// Whether b reaches over one of the sides of `a` by no more than `tolerance`.
+bool beside(const Corners& a, const Corners& b, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k) {
     const glm::dvec2 side = a[(k + 1) % 3] - a[k];
-    const glm::dvec2 inward = glm::dvec2(-side.y, side.x) / glm::length(side);
-    double depth = 0;
-    for (const glm::dvec2 corner : b) depth = std::max(depth, glm::dot(corner - a[k], inward));
-    least = std::min(least, depth);
+    double depth = 0;  // times the side's length
+    for (const glm::dvec2 corner : b)
+      depth = std::max(depth, side.x * (corner.y - a[k].y) - side.y * (corner.x - a[k].x));
+    if (depth * depth <= tolerance * tolerance * glm::dot(side, side)) return true;
   }
-  return least;
+  return false;
 }
 
-// Convex shapes are apart if and only if a side of one has the other beyond it.
+// Convex shapes are apart if and only if one has a side that the other is beside.
 bool overlap(const Corners& a, const Corners& b, double tolerance) {
-  return depthInside(a, b) > tolerance && depthInside(b, a) > tolerance;
+  return !beside(a, b, tolerance) && !beside(b, a, tolerance);
 }
 
-// Square cells, about as many as triangles, that list which boxes they touch.
+// Square cells that list which boxes they touch: about as many as boxes, or fewer so that the lists
+// stay short in all.
 class Grid {
  public:
   explicit Grid(const std::vector<Box>& boxes) {
@@ -47,6 +45,7 @@ class Grid {
     const glm::dvec2 size = all.high - all.low;
     cell_ = std::max(std::sqrt(size.x * size.y / static_cast<double>(boxes.size())),
                      std::max(size.x, size.y) / kMostCells);
+    while (entries(boxes) > kMostEntries * static_cast<double>(boxes.size())) cell_ *= 2;
     cells_ = cellOf(all.high) + 1;
     starts_.assign(static_cast<std::size_t>(cells_.x) * cells_.y + 1, 0);
     for (const Box& box : boxes)
@@ -72,6 +71,17 @@ class Grid {
 
  private:
   static constexpr double kMostCells = 4096;  // along a side
+  static constexpr double kMostEntries = 64;  // a box
+
+  double entries(const std::vector<Box>& boxes) const {
+    double sum = 0;
+    for (const Box& box : boxes) {
+      const glm::dvec2 touched(cellOf(box.high) - cellOf(box.low) + 1);
+      sum += touched.x * touched.y;
+    }
+    return sum;
+  }
+
   glm::dvec2 low_{0};
   double cell_ = 1;
   ivec2 cells_{1};
@@ -81,12 +91,13 @@ class Grid {
 
 }  // namespace
 
-bool overlap(std::span<const std::array<glm::dvec2, 3>> triangles, double tolerance) {
-  if (triangles.size() < 2) return false;
+std::optional<std::array<std::uint32_t, 2>> findOverlap(
+    std::span<const std::array<glm::dvec2, 3>> triangles, double tolerance) {
+  if (triangles.size() < 2) return {};
   std::vector<Box> boxes;
   for (const Corners& triangle : triangles) boxes.push_back(boxOf(triangle));
   const Grid grid(boxes);
-  bool found = false;
+  std::optional<std::array<std::uint32_t, 2>> found;
   for (std::uint32_t i = 0; i < triangles.size() && !found; ++i)
     grid.forCells(boxes[i], [&](ivec2 cell, std::size_t number) {
       for (const std::uint32_t j : grid.list(number)) {
@@ -95,7 +106,7 @@ bool overlap(std::span<const std::array<glm::dvec2, 3>> triangles, double tolera
                          high = glm::min(boxes[i].high, boxes[j].high);
         if (glm::any(glm::greaterThanEqual(low, high)) || grid.cellOf(low) != cell)
           continue;  // another cell has them, too
-        found = overlap(triangles[i], triangles[j], tolerance);
+        if (overlap(triangles[i], triangles[j], tolerance)) found = {j, i};
       }
     });
   return found;

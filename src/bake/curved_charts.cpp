@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "bake/chart_overlap.hpp"
 #include "bake/smallest_rectangle.hpp"
@@ -19,8 +20,6 @@ namespace {
 constexpr double kNearlyFlat = 0.09;  // rad: a cone of normals that a projection stretches by 0.4 %
 constexpr double kTouch = 2e-5;       // of a chart's longer side: less is no overlap
 constexpr std::size_t kRegionsAtOnce = 16;  // that a thread takes
-
-using Placed = std::vector<std::array<glm::dvec2, 3>>;  // corners of each triangle
 
 // A region by itself.
 struct Cut {
@@ -102,16 +101,19 @@ bool stretchedAbove(double most, const Piece& piece, const std::vector<glm::dvec
   });
 }
 
-// In the smallest rectangle around all points; nothing if triangles overlap.
-std::optional<Chart> placed(const Piece& piece, std::vector<glm::dvec2> at) {
+using Two = std::array<std::uint32_t, 2>;  // triangles of a piece
+
+// Turned into the smallest rectangle around all points. Or two triangles that overlap.
+std::variant<Chart, Two> place(const Piece& piece, std::vector<glm::dvec2> at) {
   const Rectangle around = smallestRectangle(at);
   for (glm::dvec2& p : at) {
     p -= around.corner;
     p = {glm::dot(p, around.along), glm::dot(p, around.across())};
   }
-  Placed triangles;
+  std::vector<std::array<glm::dvec2, 3>> triangles;
   for (const auto& [a, b, c] : piece.triangles) triangles.push_back({at[a], at[b], at[c]});
-  if (overlap(triangles, kTouch * std::max(around.size.x, around.size.y))) return {};
+  if (const auto found = findOverlap(triangles, kTouch * std::max(around.size.x, around.size.y)))
+    return *found;
   Chart chart;
   chart.size = vec2(around.size);
   for (const auto& [a, b, c] : triangles) {
@@ -136,58 +138,68 @@ std::vector<std::uint32_t> stepsFrom(const Cut& cut, std::uint32_t first) {
   return steps;
 }
 
+// The triangles that are farthest from each other, if not quite.
+Two farthest(const Cut& cut) {
+  const auto from = [&](std::uint32_t first) {
+    const auto steps = stepsFrom(cut, first);
+    return static_cast<std::uint32_t>(std::ranges::max_element(steps) - steps.begin());
+  };
+  const std::uint32_t one = from(0);
+  return {one, from(one)};
+}
+
 // Makes the charts of one region.
 class Charter {
  public:
   Charter(const Surface& surface, const CurvedSettings& settings)
       : surface_(surface), settings_(settings) {}
 
-  std::vector<Chart> run(Region whole) {
+  std::vector<Chart> run(Region whole) const {
     std::vector<Chart> charts;
     std::vector<Region> waiting{std::move(whole)};
     while (!waiting.empty()) {
       const Region region = std::move(waiting.back());
       waiting.pop_back();
       const Cut cut = cutOut(surface_, region);
-      if (std::optional<Chart> chart = chartOf(region, cut.piece))
+      std::variant<Chart, Two> made = chartOf(region, cut);
+      if (Chart* chart = std::get_if<Chart>(&made))
         charts.push_back(std::move(*chart));
       else
-        std::ranges::move(split(region, cut), std::back_inserter(waiting));
+        std::ranges::move(split(region, cut, std::get<Two>(made)), std::back_inserter(waiting));
     }
     return charts;
   }
 
  private:
   // Unfolded, or else projected on the plane across the axis, which flips nothing and stretches
-  // only as much as the cone is wide. Nothing if neither will do.
-  std::optional<Chart> chartOf(const Region& region, const Piece& piece) const {
+  // only as much as the cone is wide. If neither will do: two triangles to part.
+  std::variant<Chart, Two> chartOf(const Region& region, const Cut& cut) const {
+    const Piece& piece = cut.piece;
     const std::uint32_t part = surface_.flatPart[region.triangles[0]];
     const bool flat = std::ranges::all_of(
         region.triangles, [&](std::uint32_t t) { return surface_.flatPart[t] == part; });
     const std::vector<glm::dvec2> projected = project(piece, region.axis);
+    std::optional<Two> apart;
     for (const bool unfolding : {true, false}) {
       if (unfolding && region.cone <= kNearlyFlat) continue;
       std::vector<glm::dvec2> at = unfolding ? unfold(piece, projected) : projected;
       if (!flat) scaleToArea(piece, at);
       const bool single = piece.triangles.size() == 1;
       if (!single && stretchedAbove(settings_.mostStretch, piece, at)) continue;
-      std::optional<Chart> chart = placed(piece, std::move(at));
-      if (!chart) continue;
-      chart->triangles = region.triangles;
-      if (flat) chart->normal = vec3(region.axis);
-      return chart;
+      std::variant<Chart, Two> placed = place(piece, std::move(at));
+      if (Chart* chart = std::get_if<Chart>(&placed)) {
+        chart->triangles = region.triangles;
+        if (flat) chart->normal = vec3(region.axis);
+        return placed;
+      }
+      apart = std::get<Two>(placed);
     }
-    return {};
+    return apart ? *apart : farthest(cut);
   }
 
-  // In two, around the triangles that are farthest from each other.
-  std::array<Region, 2> split(const Region& region, const Cut& cut) const {
-    const auto farthest = [&](std::uint32_t from) {
-      const auto steps = stepsFrom(cut, from);
-      return static_cast<std::uint32_t>(std::ranges::max_element(steps) - steps.begin());
-    };
-    const std::uint32_t one = farthest(0), other = farthest(one);
-    const auto toOne = stepsFrom(cut, one), toOther = stepsFrom(cut, other);
+  // Each triangle goes to the nearer one of two.
+  std::array<Region, 2> split(const Region& region, const Cut& cut, const Two& around) const {
+    const auto toOne = stepsFrom(cut, around[0]), toOther = stepsFrom(cut, around[1]);
     std::array<Region, 2> parts;
     for (std::size_t i = 0; i < region.triangles.size(); ++i)
       parts[toOne[i] <= toOther[i] ? 0 : 1].triangles.push_back(region.triangles[i]);
@@ -213,7 +225,7 @@ class Charter {
 
 CurvedCharts curvedCharts(std::span<const vec3> positions, std::span<const std::uint32_t> indices,
                           const CurvedSettings& settings) {
-  const Surface surface = surfaceOf(positions, indices, std::cos(settings.crease));
+  const Surface surface = surfaceOf(positions, indices);
   std::vector<Region> regions = growRegions(surface, settings.growth);
   std::vector<std::vector<Chart>> found(regions.size());
   parallelFor(regions.size(), kRegionsAtOnce, [&](std::size_t begin, std::size_t end) {

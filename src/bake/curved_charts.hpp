@@ -12,7 +12,6 @@
 namespace lucerna::bake {
 
 struct CurvedSettings {
-  float crease = 0.7f;      // rad: edges that bend more are seams, in flat parts alone they are not
   float mostStretch = 2.f;  // that lengths may grow or shrink by, in any direction
   GrowthSettings growth{};
 };

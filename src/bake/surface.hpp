@@ -25,10 +25,9 @@ struct Surface {
   std::size_t triangles() const { return corners.size(); }
 };
 
-// indices: three a triangle, of positions. Joined are the triangles of a planar chart, and across
-// edges with at least `cosCrease` between the normals; where several would be, those of least angle
-// first.
-Surface surfaceOf(std::span<const vec3> positions, std::span<const std::uint32_t> indices,
-                  float cosCrease);
+// indices: three a triangle, of positions. Where several sides could be joined, those of one planar
+// chart are, then those with the least angle between the normals. Copies of a triangle are
+// joined with copies, not with what the first is joined with.
+Surface surfaceOf(std::span<const vec3> positions, std::span<const std::uint32_t> indices);
 
 }  // namespace lucerna::bake

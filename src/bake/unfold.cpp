@@ -16,6 +16,8 @@ constexpr int kRigidRounds = 12;
 constexpr int kRigidSteps = 40;   // of conjugate gradients, a round
 constexpr double kSolved = 1e-5;  // of the first residual
 
+constexpr double kRounding = 1e-10;  // of the points' coordinates: steps below it lead astray
+
 // Points of the plane are complex numbers here: turning is multiplying.
 using Point = std::complex<double>;
 using Points = std::vector<Point>;
@@ -116,7 +118,11 @@ void solve(const Matrix& matrix, const std::vector<double>& diagonal, const Poin
   const std::size_t count = x.size();
   Points residual(count), preconditioned(count), direction(count), image(count);
   matrix(x, image);
-  for (std::size_t i = 0; i < count; ++i) residual[i] = right[i] - image[i];
+  double rounding = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    residual[i] = right[i] - image[i];
+    rounding += kRounding * kRounding * diagonal[i] * std::norm(x[i]);
+  }
   hold(residual);
   double before = 0, first = 0;
   for (int step = 0; step < steps; ++step) {
@@ -124,7 +130,7 @@ void solve(const Matrix& matrix, const std::vector<double>& diagonal, const Poin
       preconditioned[i] = diagonal[i] > 0 ? residual[i] / diagonal[i] : residual[i];
     const double now = dotOf(residual, preconditioned);
     if (step == 0) first = now;
-    if (!(now > first * kSolved * kSolved)) return;
+    if (!(now > std::max(first * kSolved * kSolved, rounding))) return;
     const double share = step == 0 ? 0 : now / before;
     for (std::size_t i = 0; i < count; ++i) direction[i] = preconditioned[i] + share * direction[i];
     matrix(direction, image);
