@@ -127,9 +127,10 @@ void Merger::addTriangle(std::uint32_t triangle) {
   const TriangleShape& shape = surface_.shapes[triangle];
   part.sum += static_cast<double>(shape.area) * glm::dvec3(shape.normal);
   part.area += shape.area;
-  for (const vec3 corner : surface_.corners[triangle])
-    part.low = glm::min(part.low, glm::dvec3(corner)),
-    part.high = glm::max(part.high, glm::dvec3(corner));
+  for (const glm::dvec3 corner : surface_.corners[triangle]) {
+    part.low = glm::min(part.low, corner);
+    part.high = glm::max(part.high, corner);
+  }
   if (part.last == Surface::kNone) part.last = next_[triangle] = triangle;
   next_[triangle] = std::exchange(next_[part.last], triangle);
   part.last = triangle;

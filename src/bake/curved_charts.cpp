@@ -27,20 +27,22 @@ struct Cut {
   std::vector<std::uint32_t> across;  // of each side, or Surface::kNone
 };
 
-Cut cutOut(const Surface& surface, const Region& region) {
-  Cut cut;
-  const std::size_t sides = 3 * region.triangles.size();
-  cut.across.assign(sides, Surface::kNone);
-  for (std::uint32_t i = 0; i < sides; ++i) {
+std::vector<std::uint32_t> acrossIn(const Region& region, const Surface& surface) {
+  std::vector<std::uint32_t> across(3 * region.triangles.size(), Surface::kNone);
+  for (std::uint32_t i = 0; i < across.size(); ++i) {
     const std::uint32_t other = surface.across[3 * region.triangles[i / 3] + i % 3];
     if (other == Surface::kNone) continue;
     const auto place = std::ranges::lower_bound(region.triangles, other / 3);
     if (place != region.triangles.end() && *place == other / 3)
-      cut.across[i] =
-          static_cast<std::uint32_t>(3 * (place - region.triangles.begin())) + other % 3;
+      across[i] = static_cast<std::uint32_t>(3 * (place - region.triangles.begin())) + other % 3;
   }
-  // Corners are one point where sides join them; a seam within the region keeps two.
-  std::vector<std::uint32_t> first(sides);
+  return across;
+}
+
+// Of each corner the first that is the same point. Points are what sides join, so that where parts
+// only touch by a point there are two.
+std::vector<std::uint32_t> firstCorners(std::span<const std::uint32_t> across) {
+  std::vector<std::uint32_t> first(across.size());
   std::iota(first.begin(), first.end(), 0u);
   const auto firstOf = [&](std::uint32_t i) {
     while (first[i] != i) i = first[i] = first[first[i]];
@@ -51,19 +53,26 @@ Cut cutOut(const Surface& surface, const Region& region) {
     first[std::max(a, b)] = std::min(a, b);
   };
   const auto end = [](std::uint32_t side) { return side % 3 == 2 ? side - 2 : side + 1; };
-  for (std::uint32_t i = 0; i < sides; ++i)
-    if (const std::uint32_t other = cut.across[i]; other != Surface::kNone && i < other)
+  for (std::uint32_t i = 0; i < across.size(); ++i)
+    if (const std::uint32_t other = across[i]; other != Surface::kNone && i < other)
       unite(i, end(other)), unite(end(i), other);
-  std::vector<std::uint32_t> pointOf(sides);
+  for (std::uint32_t i = 0; i < across.size(); ++i) first[i] = firstOf(i);
+  return first;
+}
+
+Cut cutOut(const Surface& surface, const Region& region) {
+  Cut cut{.piece = {}, .across = acrossIn(region, surface)};
+  const std::vector<std::uint32_t> first = firstCorners(cut.across);
+  std::vector<std::uint32_t> pointOf(first.size());
   cut.piece.triangles.resize(region.triangles.size());
   const glm::dvec3 base(surface.corners[region.triangles[0]][0]);
-  for (std::uint32_t i = 0; i < sides; ++i) {
-    if (firstOf(i) == i) {
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    if (first[i] == i) {
       pointOf[i] = static_cast<std::uint32_t>(cut.piece.points.size());
       cut.piece.points.push_back(glm::dvec3(surface.corners[region.triangles[i / 3]][i % 3]) -
                                  base);
     }
-    cut.piece.triangles[i / 3][i % 3] = pointOf[firstOf(i)];
+    cut.piece.triangles[i / 3][i % 3] = pointOf[first[i]];
   }
   return cut;
 }
@@ -75,22 +84,6 @@ std::vector<glm::dvec2> project(const Piece& piece, glm::dvec3 axis) {
   std::vector<glm::dvec2> result;
   for (const glm::dvec3 p : piece.points) result.emplace_back(glm::dot(p, u), glm::dot(p, v));
   return result;
-}
-
-double crossOf(glm::dvec2 a, glm::dvec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-// The area of all becomes what it is in space.
-void scaleToArea(const Piece& piece, std::vector<glm::dvec2>& at) {
-  double wanted = 0, found = 0;
-  for (const auto& [a, b, c] : piece.triangles) {
-    wanted += glm::length(
-        glm::cross(piece.points[b] - piece.points[a], piece.points[c] - piece.points[a]));
-    found += crossOf(at[b] - at[a], at[c] - at[a]);
-  }
-  if (found > 0)
-    for (glm::dvec2& point : at) point *= std::sqrt(wanted / found);
 }
 
 bool stretchedAbove(double most, const Piece& piece, const std::vector<glm::dvec2>& at) {
@@ -121,6 +114,16 @@ std::variant<Chart, Two> place(const Piece& piece, std::vector<glm::dvec2> at) {
     chart.corners.push_back({inside(a), inside(b), inside(c)});
   }
   return chart;
+}
+
+// The share of its rectangle that a chart covers.
+double filled(const Chart& chart) {
+  double twice = 0;
+  for (const auto& [a, b, c] : chart.corners) {
+    const glm::dvec2 u(b - a), v(c - a);
+    twice += u.x * v.y - u.y * v.x;
+  }
+  return twice / 2 / (static_cast<double>(chart.size.x) * chart.size.y);
 }
 
 // Steps over sides from one triangle to each.
@@ -188,6 +191,7 @@ class Charter {
       if (!single && stretchedAbove(settings_.mostStretch, piece, at)) continue;
       std::variant<Chart, Two> placed = place(piece, std::move(at));
       if (Chart* chart = std::get_if<Chart>(&placed)) {
+        if (!flat && filled(*chart) < settings_.leastFilled) return farthest(cut);
         chart->triangles = region.triangles;
         if (flat) chart->normal = vec3(region.axis);
         return placed;

@@ -12,7 +12,8 @@
 namespace lucerna::bake {
 
 struct CurvedSettings {
-  float mostStretch = 2.f;  // that lengths may grow or shrink by, in any direction
+  float mostStretch = 2.f;   // that lengths may grow or shrink by, in any direction
+  float leastFilled = 0.4f;  // of a chart's rectangle, else it is cut in two; flat parts are not
   GrowthSettings growth{};
 };
 

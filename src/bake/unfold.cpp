@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <utility>
 
 namespace lucerna::bake {
@@ -18,9 +17,16 @@ constexpr double kSolved = 1e-5;  // of the first residual
 
 constexpr double kRounding = 1e-10;  // of the points' coordinates: steps below it lead astray
 
-// Points of the plane are complex numbers here: turning is multiplying.
-using Point = std::complex<double>;
+using Point = glm::dvec2;
 using Points = std::vector<Point>;
+
+double crossOf(Point a, Point b) {
+  return a.x * b.y - a.y * b.x;
+}
+// As complex numbers multiply: turned by the angle of `by`, as long as both are.
+Point turned(Point p, Point by) {
+  return {p.x * by.x - p.y * by.y, p.x * by.y + p.y * by.x};
+}
 
 // A triangle in its own plane, and the cotangents of the angles at its corners.
 struct Flat {
@@ -33,22 +39,19 @@ Flat layFlat(const Piece& piece, const std::array<std::uint32_t, 3>& triangle) {
                    ac = piece.points[triangle[2]] - a;
   const double length = glm::length(ab);
   const Point third(glm::dot(ab, ac) / length, glm::length(glm::cross(ab, ac)) / length);
-  const double height =
-      std::max(third.imag(), kLeastHeight * std::max(length, std::abs(third.real())));
-  Flat flat{.corners = {Point(0), Point(length), Point(third.real(), height)}};
+  const double height = std::max(third.y, kLeastHeight * std::max(length, std::abs(third.x)));
+  Flat flat{.corners = {Point(0), Point(length, 0), Point(third.x, height)}};
   for (std::size_t k = 0; k < 3; ++k) {
     const Point u = flat.corners[(k + 1) % 3] - flat.corners[k],
                 v = flat.corners[(k + 2) % 3] - flat.corners[k];
-    const Point product = std::conj(u) * v;
-    flat.cotangents[k] = product.real() / product.imag();
+    flat.cotangents[k] = glm::dot(u, v) / crossOf(u, v);
   }
   return flat;
 }
 
 double dotOf(const Points& a, const Points& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += a[i].real() * b[i].real() + a[i].imag() * b[i].imag();
+  for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i], b[i]);
   return sum;
 }
 
@@ -113,15 +116,15 @@ void solve(const Matrix& matrix, const std::vector<double>& diagonal, const Poin
            Points& x, int steps, std::array<std::size_t, 2> held = {~0ull, ~0ull}) {
   const auto hold = [&](Points& points) {
     for (const std::size_t i : held)
-      if (i < points.size()) points[i] = 0;
+      if (i < points.size()) points[i] = Point(0);
   };
   const std::size_t count = x.size();
-  Points residual(count), preconditioned(count), direction(count), image(count);
+  Points residual(count), preconditioned(count), direction(count, Point(0)), image(count);
   matrix(x, image);
   double rounding = 0;
   for (std::size_t i = 0; i < count; ++i) {
     residual[i] = right[i] - image[i];
-    rounding += kRounding * kRounding * diagonal[i] * std::norm(x[i]);
+    rounding += kRounding * kRounding * diagonal[i] * glm::dot(x[i], x[i]);
   }
   hold(residual);
   double before = 0, first = 0;
@@ -148,18 +151,16 @@ void solve(const Matrix& matrix, const std::vector<double>& diagonal, const Poin
 
 class Unfolding {
  public:
-  Unfolding(const Piece& piece, const std::vector<glm::dvec2>& start) : piece_(piece) {
+  Unfolding(const Piece& piece, Points start) : piece_(piece), at_(std::move(start)) {
     for (const auto& triangle : piece.triangles) flats_.push_back(layFlat(piece, triangle));
-    for (const glm::dvec2 p : start) at_.emplace_back(p.x, p.y);
   }
 
-  std::vector<glm::dvec2> run() {
+  Points run() {
     const Laplacian laplacian(piece_, flats_);
     makeConformal(laplacian);
+    scaleToArea(piece_, at_);
     for (int round = 0; round < kRigidRounds; ++round) makeRigid(laplacian);
-    std::vector<glm::dvec2> result;
-    for (const Point p : at_) result.emplace_back(p.real(), p.imag());
-    return result;
+    return std::move(at_);
   }
 
  private:
@@ -169,33 +170,34 @@ class Unfolding {
     const std::vector<std::array<std::uint32_t, 2>> border = borderOf();
     const auto energy = [&](const Points& x, Points& result) {
       laplacian.apply(x, result);
-      const Point quarter(0, 1);
       for (const auto& [from, to] : border) {
-        result[from] += quarter * x[to];
-        result[to] -= quarter * x[from];
+        result[from] += Point(-x[to].y, x[to].x);
+        result[to] -= Point(-x[from].y, x[from].x);
       }
     };
     const std::size_t one = farthestFrom(0), other = farthestFrom(one);
-    solve(energy, laplacian.diagonal, Points(at_.size()), at_, kConformalSteps, {one, other});
-    scaleToArea();
+    solve(energy, laplacian.diagonal, Points(at_.size(), Point(0)), at_, kConformalSteps,
+          {one, other});
   }
 
   // Each triangle by itself turned as it lies, then all joined again.
   void makeRigid(const Laplacian& laplacian) {
-    Points right(at_.size());
+    Points right(at_.size(), Point(0));
     for (std::size_t t = 0; t < flats_.size(); ++t) {
       const auto& triangle = piece_.triangles[t];
       const Flat& flat = flats_[t];
       const auto side = [&](std::size_t k) {
         return flat.cotangents[k] * (flat.corners[(k + 2) % 3] - flat.corners[(k + 1) % 3]);
       };
-      Point turn = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        turn += std::conj(side(k)) * (at_[triangle[(k + 2) % 3]] - at_[triangle[(k + 1) % 3]]);
-      turn = std::abs(turn) > 0 ? turn / std::abs(turn) : Point(1);
+      Point turn(0);
       for (std::size_t k = 0; k < 3; ++k) {
-        right[triangle[(k + 2) % 3]] += turn * side(k);
-        right[triangle[(k + 1) % 3]] -= turn * side(k);
+        const Point now = at_[triangle[(k + 2) % 3]] - at_[triangle[(k + 1) % 3]];
+        turn += Point(glm::dot(side(k), now), crossOf(side(k), now));
+      }
+      turn = glm::length(turn) > 0 ? glm::normalize(turn) : Point(1, 0);
+      for (std::size_t k = 0; k < 3; ++k) {
+        right[triangle[(k + 2) % 3]] += turned(side(k), turn);
+        right[triangle[(k + 1) % 3]] -= turned(side(k), turn);
       }
     }
     const auto matrix = [&](const Points& x, Points& result) { laplacian.apply(x, result); };
@@ -218,19 +220,9 @@ class Unfolding {
   std::size_t farthestFrom(std::size_t point) const {
     std::size_t farthest = 0;
     for (std::size_t i = 0; i < at_.size(); ++i)
-      if (std::abs(at_[i] - at_[point]) > std::abs(at_[farthest] - at_[point])) farthest = i;
+      if (glm::distance(at_[i], at_[point]) > glm::distance(at_[farthest], at_[point]))
+        farthest = i;
     return farthest;
-  }
-
-  void scaleToArea() {
-    double wanted = 0, found = 0;
-    for (std::size_t t = 0; t < flats_.size(); ++t) {
-      const auto& [a, b, c] = piece_.triangles[t];
-      wanted += flats_[t].corners[1].real() * flats_[t].corners[2].imag();
-      found += std::imag(std::conj(at_[b] - at_[a]) * (at_[c] - at_[a]));
-    }
-    if (found > 0)
-      for (Point& point : at_) point *= std::sqrt(wanted / found);
   }
 
   const Piece& piece_;
@@ -240,8 +232,19 @@ class Unfolding {
 
 }  // namespace
 
+void scaleToArea(const Piece& piece, std::vector<glm::dvec2>& at) {
+  double wanted = 0, found = 0;
+  for (const auto& [a, b, c] : piece.triangles) {
+    wanted += glm::length(
+        glm::cross(piece.points[b] - piece.points[a], piece.points[c] - piece.points[a]));
+    found += crossOf(at[b] - at[a], at[c] - at[a]);
+  }
+  if (found > 0)
+    for (glm::dvec2& point : at) point *= std::sqrt(wanted / found);
+}
+
 std::vector<glm::dvec2> unfold(const Piece& piece, std::vector<glm::dvec2> start) {
-  return Unfolding(piece, start).run();
+  return Unfolding(piece, std::move(start)).run();
 }
 
 }  // namespace lucerna::bake

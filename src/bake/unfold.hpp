@@ -18,6 +18,9 @@ struct Piece {
   std::vector<std::array<std::uint32_t, 3>> triangles;  // of points; joined, at least one
 };
 
+// Scales the plane so that the triangles have the area they have in space.
+void scaleToArea(const Piece& piece, std::vector<glm::dvec2>& at);
+
 // start: where the points lie to begin with, without flipped triangles. Nothing is promised of the
 // result but that it is as likely better: look for flips, stretch and overlap. Always the same
 // bits.
