@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
+#include "bake/curved_charts.hpp"
 #include "bake/pair_charts.hpp"
-#include "bake/planar_charts.hpp"
 #include "core/check.hpp"
+#include "core/parallel.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -114,22 +116,18 @@ void addTriangle(Chart& chart, const WorldObject& object, std::uint32_t triangle
   chart.corners.push_back(corners);
 }
 
-void addPlanar(Charts& result, const World& world, std::uint32_t index,
+void addCurved(Charts& result, const World& world, std::uint32_t index,
                const ChartSettings& settings) {
   const WorldObject& object = world.objects[index];
   const Part part = partOf(world, object);
-  const PlanarCharts found = planarCharts(part.positions, part.indices);
+  CurvedSettings curved;
+  curved.growth.longest = static_cast<float>(settings.mostSide) / settings.density;
+  const CurvedCharts found = curvedCharts(part.positions, part.indices, curved);
   result.degenerate += found.degenerate.size();
-  for (const PlanarChart& planar : found.charts) {
+  for (const CurvedChart& each : found.charts) {
     Chart chart{.object = index, .density = settings.density};
-    for (const std::uint32_t triangle : planar.triangles) {
-      std::array<vec2, 3> corners;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const vec3 p = part.positions[part.indices[3 * triangle + k]] - planar.origin;
-        corners[k] = {glm::dot(p, planar.alongU), glm::dot(p, planar.alongV)};
-      }
-      addTriangle(chart, object, triangle, corners);
-    }
+    for (std::size_t i = 0; i < each.triangles.size(); ++i)
+      addTriangle(chart, object, each.triangles[i], each.corners[i]);
     add(result, std::move(chart), settings.mostSide);
   }
 }
@@ -162,17 +160,19 @@ void addPairs(Charts& result, const World& world, std::uint32_t index,
 
 Charts makeCharts(const World& world, const ChartSettings& settings) {
   CHECK(settings.density > 0.f && settings.mostSide > 0);
-  Charts result;
-  for (std::uint32_t i = 0; i < world.objects.size(); ++i) {
-    if (!world.objects[i].receives) continue;
-    switch (settings.unwrap) {
-      case Unwrap::Charts:
-        addPlanar(result, world, i, settings);
-        break;
-      case Unwrap::Pairs:
-        addPairs(result, world, i, settings);
-        break;
+  std::vector<Charts> parts(world.objects.size());
+  parallelFor(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!world.objects[i].receives) continue;
+      const auto add = settings.unwrap == Unwrap::Pairs ? addPairs : addCurved;
+      add(parts[i], world, static_cast<std::uint32_t>(i), settings);
     }
+  });
+  Charts result;
+  for (Charts& part : parts) {
+    result.degenerate += part.degenerate;
+    result.shrunk += part.shrunk;
+    std::ranges::move(part.charts, std::back_inserter(result.charts));
   }
   return result;
 }

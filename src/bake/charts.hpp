@@ -11,7 +11,7 @@
 namespace lucerna::bake {
 
 enum class Unwrap {
-  Charts,  // connected triangles of one plane
+  Charts,  // flat parts, and bent ones unfolded: bake/curved_charts.hpp
   Pairs,   // two right-angled triangles to a rectangle: bake/pair_charts.hpp
 };
 

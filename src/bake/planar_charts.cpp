@@ -4,13 +4,13 @@
 #include <array>
 #include <cmath>
 #include <compare>
-#include <limits>
 #include <numeric>
 #include <set>
-#include <tuple>
 #include <utility>
 
+#include "bake/smallest_rectangle.hpp"
 #include "bake/triangle.hpp"
+#include "bake/weld.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -20,23 +20,6 @@ struct Triangle {
   vec3 normal{0.f};                        // unit; 0 of degenerate ones
   float area = 0.f;
 };
-
-// A number for each place, in the order of vertices.
-std::vector<std::uint32_t> weld(std::span<const vec3> positions) {
-  std::vector<std::uint32_t> order(positions.size()), numbers(positions.size());
-  std::iota(order.begin(), order.end(), 0u);
-  const auto place = [&](std::uint32_t i) {
-    const vec3 p = positions[i] + 0.f;  // -0 is 0
-    return std::tuple(p.x, p.y, p.z);
-  };
-  std::ranges::sort(order, [&](std::uint32_t a, std::uint32_t b) {
-    return std::tuple_cat(place(a), std::tuple(a)) < std::tuple_cat(place(b), std::tuple(b));
-  });
-  for (std::size_t i = 0; i < order.size(); ++i)
-    numbers[order[i]] =
-        i > 0 && place(order[i]) == place(order[i - 1]) ? numbers[order[i - 1]] : order[i];
-  return numbers;
-}
 
 struct Edge {
   std::uint32_t low, high, triangle;
@@ -48,12 +31,8 @@ class Grower {
  public:
   Grower(std::span<const vec3> positions, std::span<const std::uint32_t> indices,
          const PlanarSettings& settings)
-      : positions_(positions.begin(), positions.end()),
-        settings_(settings),
-        chartOf_(indices.size() / 3, kNone) {
-    for (vec3& position : positions_)  // else they have no order; no triangle that counts has them
-      if (!isFinite(position)) position = vec3(0.f);
-    const std::vector<std::uint32_t> numbers = weld(positions_);
+      : positions_(positions), settings_(settings), chartOf_(indices.size() / 3, kNone) {
+    const std::vector<std::uint32_t> numbers = weld(positions);
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
       const auto [normal, area] =
           shapeOf({positions[indices[i]], positions[indices[i + 1]], positions[indices[i + 2]]});
@@ -137,38 +116,16 @@ class Grower {
     chart.triangles.push_back(triangle);
   }
 
-  // In the smallest rectangle around it; one of its sides lies on an edge of the convex hull.
+  // In the smallest rectangle around it.
   void layFlat(PlanarChart& chart) const;
 
-  std::vector<vec3> positions_;
+  std::span<const vec3> positions_;
   PlanarSettings settings_;
   std::vector<Triangle> triangles_;
   std::vector<Edge> edges_;
   std::vector<std::uint32_t> chartOf_;
   std::set<Side> taken_;  // of the chart that is grown
 };
-
-double crossOf(glm::dvec2 a, glm::dvec2 b) {
-  return a.x * b.y - a.y * b.x;
-}
-
-// Counter-clockwise, without points on its sides (Andrew, "Another Efficient Algorithm for Convex
-// Hulls in Two Dimensions", 1979).
-std::vector<glm::dvec2> convexHull(std::vector<glm::dvec2> points) {
-  std::ranges::sort(points, {}, [](glm::dvec2 p) { return std::pair(p.x, p.y); });
-  std::vector<glm::dvec2> hull;
-  const auto add = [&](glm::dvec2 point, std::size_t least) {
-    while (hull.size() >= least + 2 &&
-           crossOf(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0)
-      hull.pop_back();
-    hull.push_back(point);
-  };
-  for (const glm::dvec2 point : points) add(point, 0);
-  const std::size_t lower = hull.size() - 1;
-  for (auto point = points.rbegin() + 1; point != points.rend(); ++point) add(*point, lower);
-  hull.pop_back();  // the first once more
-  return hull;
-}
 
 void Grower::layFlat(PlanarChart& chart) const {
   const glm::dvec3 normal(chart.normal),
@@ -183,25 +140,12 @@ void Grower::layFlat(PlanarChart& chart) const {
       const glm::dvec3 p = glm::dvec3(positions_[corner]) - base;
       points.emplace_back(glm::dot(p, u0), glm::dot(p, v0));
     }
-  const std::vector<glm::dvec2> hull = convexHull(std::move(points));
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const glm::dvec2 along = glm::normalize(hull[(i + 1) % hull.size()] - hull[i]);
-    const glm::dvec2 across(-along.y, along.x);
-    glm::dvec2 low(std::numeric_limits<double>::infinity()), high(-low);
-    for (const glm::dvec2 point : hull) {
-      const glm::dvec2 at(glm::dot(point, along), glm::dot(point, across));
-      low = glm::min(low, at), high = glm::max(high, at);
-    }
-    const glm::dvec2 size = high - low;
-    if (size.x * size.y >= least * (1 - 1e-9)) continue;  // rounding does not choose
-    least = size.x * size.y;
-    const glm::dvec2 corner = low.x * along + low.y * across;
-    chart.alongU = vec3(along.x * u0 + along.y * v0);
-    chart.alongV = vec3(across.x * u0 + across.y * v0);
-    chart.origin = vec3(base + corner.x * u0 + corner.y * v0);
-    chart.size = vec2(size);
-  }
+  const Rectangle around = smallestRectangle(std::move(points));
+  const glm::dvec2 along = around.along, across = around.across();
+  chart.alongU = vec3(along.x * u0 + along.y * v0);
+  chart.alongV = vec3(across.x * u0 + across.y * v0);
+  chart.origin = vec3(base + around.corner.x * u0 + around.corner.y * v0);
+  chart.size = vec2(around.size);
 }
 
 }  // namespace
