@@ -31,15 +31,25 @@ Json json(const PatchEntry& patch) {
           {"hash", patch.patch.hash}, {"bytes", patch.bytes}, {"otherBytes", patch.otherBytes}};
 }
 
+// Nodes and lights may be without a name, and lights without a group: an empty text is no text in
+// JSON as it is read here.
+void addText(Json& json, const char* key, const std::string& text) {
+  if (!text.empty()) json[key] = text;
+}
+
 Json json(const ObjectEntry& object) {
-  return {{"object", object.object},
-          {"node", object.node},
-          {"charts", object.charts},
-          {"maps", object.maps}};
+  Json result = {{"object", object.object}};
+  addText(result, "node", object.node);
+  result["charts"] = object.charts;
+  result["maps"] = object.maps;
+  return result;
 }
 
 Json json(const LightEntry& light) {
-  return {{"light", light.light}, {"name", light.name}, {"group", light.group}};
+  Json result = {{"light", light.light}};
+  addText(result, "name", light.name);
+  addText(result, "group", light.group);
+  return result;
 }
 
 template <typename T>
