@@ -88,6 +88,7 @@ TEST(Manifest, TextAndBack) {
 
 TEST(Manifest, WhatHasNoNameComesBackWithoutOne) {
   Manifest manifest = smallManifest();
+  manifest.processor.clear();
   manifest.objects[0].node.clear();
   manifest.lights[0] = {.name = "", .group = "", .light = 4};
   const Result<Manifest> back = manifestFrom(toJson(manifest), "manifest.json");

@@ -146,17 +146,17 @@ std::string hashText16(std::uint64_t hash) {
 }
 
 std::string toJson(const Manifest& m) {
-  const Json document{{"lucerna", kFormat},
-                      {"scene", {{"name", m.scene}, {"hash", m.sceneHash}}},
-                      {"settings", m.settings.empty() ? Json::object() : Json::parse(m.settings)},
-                      {"processor", m.processor},
-                      {"side", m.side},
-                      {"density", m.density},
-                      {"layout", json(m.layout)},
-                      {"maps", list(m.maps)},
-                      {"patches", list(m.patches)},
-                      {"objects", list(m.objects)},
-                      {"lights", list(m.lights)}};
+  Json document{{"lucerna", kFormat},
+                {"scene", {{"name", m.scene}, {"hash", m.sceneHash}}},
+                {"settings", m.settings.empty() ? Json::object() : Json::parse(m.settings)}};
+  addText(document, "processor", m.processor);
+  document["side"] = m.side;
+  document["density"] = m.density;
+  document["layout"] = json(m.layout);
+  document["maps"] = list(m.maps);
+  document["patches"] = list(m.patches);
+  document["objects"] = list(m.objects);
+  document["lights"] = list(m.lights);
   return document.dump(1) + "\n";
 }
 
