@@ -5,6 +5,8 @@
 #include <cmath>
 #include <memory>
 
+#include "core/file.hpp"
+#include "core/test_folder.hpp"
 #include "support/mirrors.hpp"
 #include "support/testing.hpp"
 
@@ -232,6 +234,29 @@ TEST_F(BakedLight, MirrorsAndGlassShowItToo) {
   graph::Pipeline pipeline = reflecting();
   EXPECT_LT(glm::distance(middleOf(picture(scene, maps, pipeline, "Transparency.color")), all),
             0.01f);
+}
+
+TEST_F(BakedLight, ShadersOfMaterialsGetItInShade) {
+  const TestFolder folder;
+  ASSERT_TRUE(writeText(folder / "twice.frag",
+                        "#include \"render/custom_shader.glsl\"\n"
+                        "vec3 radianceOf(Surface s) { return 2.0 * shade(s); }\n"));
+  scene::Scene scene = sheetScene();
+  addSheet(scene, 0, {0, 0, -kDistance});
+  scene.materials[0].shader.file = (folder / "twice.frag").string();
+  const std::array maps = {evenMap(4, vec3(2))};
+  const vec3 twice = 2.f * kAlbedo * 2.f / kPi;
+  EXPECT_LT(glm::distance(middleOf(picture(scene, maps, bakedRows(), "Transparency.color")), twice),
+            0.01f);
+  EXPECT_EQ(middleOf(picture(scene, {}, bakedRows(), "Transparency.color")), vec3(0));
+  // The name of the maps is taken, as are those of the material's own textures.
+  scene.materials[0].shader.textures = {{.name = "lightmaps", .texture = 0}};
+  scene.textures.push_back(
+      {.name = "black", .image = std::make_shared<Image>(1, 1, 3, ComponentType::U8)});
+  testing::SceneRenderer renderer(scene);
+  const auto refused = renderer.render(bakedRows(), kPicture);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("'lightmaps' is set by Lucerna"), std::string::npos);
 }
 
 TEST_F(BakedLight, PartsOfMapsChange) {
