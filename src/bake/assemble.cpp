@@ -82,6 +82,10 @@ void dilateGroup(std::vector<LitTexel>& lit, const MapTexels& texels) {
 
 }  // namespace
 
+bool MapTexels::isBeside(int map, ivec2 p) const {
+  return !has(map, p) && touchedAround(*this, map, p) > 0;
+}
+
 BakedLight emptyLight(const Plan& plan) {
   BakedLight baked;
   const int side = plan.settings.pack.side;

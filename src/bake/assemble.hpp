@@ -18,6 +18,8 @@ struct MapTexels {
     return p.x >= 0 && p.y >= 0 && p.x < side && p.y < side &&
            touched[static_cast<std::size_t>(map)][static_cast<std::size_t>(p.y) * side + p.x];
   }
+  // Not on the scene, but next to a texel that is: one that is filled for bilinear filtering.
+  bool isBeside(int map, ivec2 p) const;
 };
 
 // One group's light where there is any: irradiance.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "bake/triangle.hpp"
 #include "core/byte_stream.hpp"
@@ -35,8 +34,7 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan) {
 
 Emitters emittersOf(const Plan& plan) {
   if (!plan.emittersShine()) return {};
-  // What a white surface shows at the scene's exposure is the irradiance / pi * 2^EV.
-  const float white = kPi * std::exp2(-plan.world.scene->exposure);
+  const float white = irradianceOfWhite(*plan.world.scene);
   return findEmitters(plan.world, plan.charts.charts, plan.settings.faintest * white,
                       plan.settings.reach);
 }

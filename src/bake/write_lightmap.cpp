@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "bake/make_patch.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
@@ -59,6 +60,66 @@ Status writeMaps(const BakedLight& baked, const fs::path& folder, Manifest& mani
   for (auto& entry : entries) {
     if (!*entry) return entry->error();
     manifest.maps.push_back(std::move(**entry));
+  }
+  return {};
+}
+
+// What is factored out of a group's light: its lights' common colour; else their sum, which only
+// scales what is stored.
+vec3 colorOf(const LightGroup& group) {
+  vec3 sum(0.f);
+  for (const scene::PlacedLight& light : group.lights) sum += light.intensity;
+  return group.lights.empty() ? vec3(1.f) : sum / static_cast<float>(group.lights.size());
+}
+
+// The texels that a lookup may meet: on the scene, and the filled ones beside them.
+std::vector<std::vector<bool>> usedTexels(const MapTexels& texels) {
+  std::vector<std::vector<bool>> used = texels.touched;
+  const int side = texels.side;
+  for (std::size_t map = 0; map < used.size(); ++map)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        if (texels.isBeside(static_cast<int>(map), {x, y}))
+          used[map][static_cast<std::size_t>(y) * side + x] = true;
+  return used;
+}
+
+MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<const LitTexel> lit,
+                    float white) {
+  std::vector<PatchTexel> texels;
+  texels.reserve(lit.size());
+  for (const LitTexel& t : lit)
+    texels.push_back(
+        {.map = t.map,
+         .x = t.x,
+         .y = t.y,
+         .value = {floatFromHalf(t.rgb[0]), floatFromHalf(t.rgb[1]), floatFromHalf(t.rgb[2])}});
+  // A quarter of what can be seen at once, as several groups may add up.
+  return maker.make({.group = group.name, .color = colorOf(group), .texels = texels},
+                    {.light = white / 1024.f, .black = white / 16384.f});
+}
+
+Status writePatches(const Plan& plan, const BakedLight& baked, const fs::path& folder,
+                    Manifest& manifest) {
+  if (plan.groups.size() < 2) return {};
+  const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
+  const lightmap::Layout layout = layoutOf(plan);
+  const PatchMaker maker(layout, used);
+  const float white = irradianceOfWhite(*plan.world.scene);
+  std::vector<MadePatch> made(plan.groups.size());
+  parallelFor(made.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end + 1; ++i)
+      made[i] = makePatch(maker, plan.groups[i], baked.groups[i], white);
+  });
+  for (std::size_t i = 1; i < made.size(); ++i) {
+    lightmap::PatchEntry entry;
+    entry.group = plan.groups[i].name;
+    LUCERNA_TRY(file, write(folder, fmt::format("patch-{:03}.bin", i - 1), made[i].bytes));
+    entry.patch = std::move(file);
+    entry.form = made[i].patch.form();
+    entry.bytes = made[i].bytes.size();
+    entry.otherBytes = made[i].otherBytes;
+    manifest.patches.push_back(std::move(entry));
   }
   return {};
 }
@@ -122,6 +183,7 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   LUCERNA_TRY(layout, write(folder, "layout.bin", lightmap::toBytes(layoutOf(plan))));
   manifest.layout = std::move(layout);
   LUCERNA_TRY_VOID(writeMaps(baked, folder, manifest));
+  LUCERNA_TRY_VOID(writePatches(plan, baked, folder, manifest));
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / "manifest.json", lightmap::toJson(manifest)));
