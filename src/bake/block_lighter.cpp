@@ -307,11 +307,35 @@ void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const E
     }
 }
 
+// found_: the nodes with one direction that may light the block, for all of its tiles.
+void BlockLighter::findNodes(const Samples& samples) {
+  const auto start = Clock::now();
+  const std::vector<EmitterNode>& nodes = emitters_.nodes;
+  const Tile all{
+      .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
+  found_.clear();
+  stack_.assign(1, 0);
+  while (!stack_.empty()) {
+    const std::uint32_t at = stack_.back();
+    stack_.pop_back();
+    const EmitterNode& node = nodes[at];
+    if (distanceBetween(node.boxW, all.boundsW) >= node.reach || !mayLight(samples, all, node))
+      continue;
+    if (node.isCell() || node.emission.normalW != vec3(0.f)) {
+      found_.push_back(at);
+      continue;
+    }
+    stack_.push_back(node.right);
+    stack_.push_back(at + 1);
+  }
+  counters.shadingSeconds += secondsSince(start);
+}
+
 void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
   const auto start = Clock::now();
   const double tracing = counters.tracingSeconds;
   const std::vector<EmitterNode>& nodes = emitters_.nodes;
-  stack_.assign(1, 0);
+  stack_ = found_;
   while (!stack_.empty()) {
     const std::uint32_t at = stack_.back();
     stack_.pop_back();
@@ -346,6 +370,7 @@ void BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
   if (emitters && !emitters_.nodes.empty()) {
     lit_.clear();
     rays_.resize(0);
+    findNodes(samples);
     for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
     any = true;
   }

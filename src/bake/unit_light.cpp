@@ -84,6 +84,8 @@ LightScene::LightScene(const Plan& plan)
     : tracer(makeTracer(plan)),
       occluders(plan.world),
       emitters(emittersOf(plan)),
+      rays(*plan.world.scene, mat4(1.f)),
+      chartOf(chartsOfTriangles(plan)),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
@@ -92,7 +94,8 @@ UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
                {.lightSamples = plan.settings.sampling.lightSamples,
                 .emitterSize = plan.settings.sampling.emitterSize,
                 .sceneDiagonal = scene.diagonal},
-               *plan.world.scene) {}
+               *plan.world.scene),
+      hidden_(scene.rays, scene.occluders, scene.chartOf) {}
 
 BlockLight UnitLighter::lightBlock(const Block& block) {
   const auto start = Clock::now();
@@ -102,6 +105,7 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
     chart_ = block.chart;
   }
   sampler_->sample(block, samples_);
+  hidden_.remove(samples_, block.chart);
   samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
 
   const auto count = static_cast<std::size_t>(block.size.x) * block.size.y;
