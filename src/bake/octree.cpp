@@ -27,23 +27,32 @@ bool apart(dvec3 axis, const std::array<dvec3, 3>& p, dvec3 half) {
   return std::min({a, b, c}) > reach || std::max({a, b, c}) < -reach;
 }
 
-// Akenine-Moeller, "Fast 3D Triangle-Box Overlap Testing", 2001: the box's sides, the triangle's
-// plane, and the axes across an edge of each.
+// Of a triangle whose box meets the box, by Akenine-Moeller, "Fast 3D Triangle-Box Overlap
+// Testing", 2001: the triangle's plane, and the axes across an edge of each.
 bool overlap(const Octree::Corners& corners, const Aabb& box) {
   const dvec3 middle = 0.5 * (dvec3(box.min) + dvec3(box.max));
   const dvec3 half = dvec3(box.max) - middle;
   const std::array p{dvec3(corners[0]) - middle, dvec3(corners[1]) - middle,
                      dvec3(corners[2]) - middle};
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::min({p[0][axis], p[1][axis], p[2][axis]}) > half[axis] ||
-        std::max({p[0][axis], p[1][axis], p[2][axis]}) < -half[axis])
-      return false;
   const std::array edges{p[1] - p[0], p[2] - p[1], p[0] - p[2]};
   if (apart(glm::cross(edges[0], edges[1]), p, half)) return false;
   return std::ranges::none_of(edges, [&](dvec3 e) {
     return apart({0., -e.z, e.y}, p, half) || apart({e.z, 0., -e.x}, p, half) ||
            apart({-e.y, e.x, 0.}, p, half);
   });
+}
+
+// A bit for each part of a cell that the triangle's box meets.
+std::uint32_t partsMet(const Octree::Corners& corners, vec3 middle, float margin) {
+  constexpr std::array<std::uint32_t, 3> kUpper{0b10101010, 0b11001100, 0b11110000};
+  const vec3 low = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+  const vec3 high = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+  std::uint32_t parts = 0xff;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (low[axis] > middle[axis] + margin) parts &= kUpper[axis];
+    if (high[axis] < middle[axis] - margin) parts &= ~kUpper[axis];
+  }
+  return parts;
 }
 
 Aabb grown(Aabb box, float margin) {
@@ -70,6 +79,15 @@ struct Octree::Builder {
     std::vector<std::uint32_t> triangles;
   };
 
+  // To the parts of a cell that a triangle of the cell comes near.
+  void hand(std::uint32_t triangle, vec3 middle, std::array<Cell, 8>& parts) const {
+    const std::uint32_t met = partsMet(triangles[triangle], middle, margin);
+    for (std::uint32_t k = 0; k < 8; ++k)
+      if (met == 1u << k ||
+          ((met & (1u << k)) && overlap(triangles[triangle], grown(parts[k].box, margin))))
+        parts[k].triangles.push_back(triangle);
+  }
+
   // Cuts the cell and queues its parts, or returns false.
   bool cut(const Cell& cell) {
     if (cell.triangles.size() <= leafSize || cell.depth == kMaxDepth) return false;
@@ -77,15 +95,13 @@ struct Octree::Builder {
     const std::size_t all = cell.triangles.size();
     std::size_t sum = 0, most = 0;
     const auto first = static_cast<std::uint32_t>(tree.nodes_.size());
-    for (std::uint32_t k = 0; k < 8; ++k) {
-      parts[k].node = first + k;
-      parts[k].depth = cell.depth + 1;
-      parts[k].box = part(cell.box, k);
-      const Aabb box = grown(parts[k].box, margin);
-      for (const std::uint32_t triangle : cell.triangles)
-        if (overlap(triangles[triangle], box)) parts[k].triangles.push_back(triangle);
-      sum += parts[k].triangles.size();
-      most = std::max(most, parts[k].triangles.size());
+    for (std::uint32_t k = 0; k < 8; ++k)
+      parts[k] = {
+          .node = first + k, .depth = cell.depth + 1, .box = part(cell.box, k), .triangles = {}};
+    for (const std::uint32_t triangle : cell.triangles) hand(triangle, cell.box.center(), parts);
+    for (const Cell& made : parts) {
+      sum += made.triangles.size();
+      most = std::max(most, made.triangles.size());
     }
     if ((sum >= 4 * all && 3 * most > 2 * all) || names + sum - all > mostNames) return false;
     names += sum - all;
@@ -127,8 +143,7 @@ Octree::Octree(std::span<const Corners> triangles, std::size_t leafSize) {
     root.triangles.push_back(i);
   }
   if (root.triangles.empty()) return;
-  // A cube, so that cells are: its side is at least the size of its places' numbers over 2^10, so
-  // that the smallest cells are wider than rounding.
+  // A cube, so that cells are.
   const vec3 size = glm::max(glm::abs(box_.min), glm::abs(box_.max));
   const float farthest = std::max({size.x, size.y, size.z, 1e-6f});
   const float margin = 0x1p-20f * (farthest + box_.diagonal());

@@ -25,7 +25,7 @@ class Octree {
   Octree(std::span<const Corners> triangles, std::size_t leafSize);
 
   static constexpr int kMaxDepth = 14;
-  static constexpr std::size_t kMostNames = 16;
+  static constexpr std::size_t kMostNames = 8;
 
   // Calls leaf(span of triangles) for leaves that hold triangles, from `from` to `to`, until one
   // returns true; returns whether one did. Each triangle that comes within rounding of the segment
