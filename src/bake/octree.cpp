@@ -90,9 +90,9 @@ struct Octree::Builder {
 
   // Cuts the cell and queues its parts, or returns false.
   bool cut(const Cell& cell) {
-    if (cell.triangles.size() <= leafSize || cell.depth == kMaxDepth) return false;
-    std::array<Cell, 8> parts;
     const std::size_t all = cell.triangles.size();
+    if (all <= leafSize || all >= tooMany || cell.depth == kMaxDepth) return false;
+    std::array<Cell, 8> parts;
     std::size_t sum = 0, most = 0;
     const auto first = static_cast<std::uint32_t>(tree.nodes_.size());
     for (std::uint32_t k = 0; k < 8; ++k)
@@ -103,7 +103,11 @@ struct Octree::Builder {
       sum += made.triangles.size();
       most = std::max(most, made.triangles.size());
     }
-    if ((sum >= 4 * all && 3 * most > 2 * all) || names + sum - all > mostNames) return false;
+    if (sum >= 4 * all && 3 * most > 2 * all) return false;
+    if (names + sum - all > mostNames) {
+      tooMany = all;
+      return false;
+    }
     names += sum - all;
     tree.nodes_[cell.node] = {.middle = cell.box.center(), .first = first, .count = kInner};
     tree.nodes_.resize(tree.nodes_.size() + 8);
@@ -131,7 +135,8 @@ struct Octree::Builder {
   std::size_t leafSize;
   float margin;  // m, around cells: more than the rounding of a segment's stretches
   std::size_t names = 0, mostNames = 0;
-  std::deque<Cell> cells{};  // to be cut or made leaves
+  std::size_t tooMany = ~std::size_t{0};  // so many triangles of a cell made too many names
+  std::deque<Cell> cells{};               // to be cut or made leaves
 };
 
 Octree::Octree(std::span<const Corners> triangles, std::size_t leafSize) {
