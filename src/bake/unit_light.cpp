@@ -27,9 +27,9 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan) {
     case Engine::Embree:
       return makeEmbreeTracer(plan.world);
     case Engine::Octree:
-      break;
+      return makeOctreeTracer(plan.world);
   }
-  CHECK(false, "the octree is yet to come");
+  CHECK(false);
 }
 
 Emitters emittersOf(const Plan& plan) {
