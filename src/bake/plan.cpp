@@ -53,9 +53,15 @@ void addWarnings(Plan& plan) {
   if (charts.degenerate > 0)
     plan.warnings.push_back(fmt::format(
         "{} triangles have no area or are not finite and get no light", charts.degenerate));
+  constexpr std::size_t kMostNamed = 5;
+  for (std::size_t i = 0; i < std::min(charts.unsound.size(), kMostNamed); ++i)
+    plan.warnings.push_back(charts.unsound[i]);
+  if (charts.unsound.size() > kMostNamed)
+    plan.warnings.push_back(fmt::format("TEXCOORD_1 of {} more objects is not used",
+                                        charts.unsound.size() - kMostNamed));
   if (charts.shrunk > 0)
     plan.warnings.push_back(fmt::format(
-        "{} triangles are larger than a map and have fewer texels a metre; larger maps (--size) or "
+        "{} charts are larger than a map and have fewer texels a metre; larger maps (--size) or "
         "a lower --density would hold them",
         charts.shrunk));
   const bool dark =
@@ -76,9 +82,10 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   Plan plan;
   plan.settings = settings;
   plan.world = makeWorld(scene);
-  plan.charts = makeCharts(
-      plan.world,
-      {.unwrap = settings.unwrap, .density = settings.density, .mostSide = settings.pack.side});
+  plan.charts = makeCharts(plan.world, {.unwrap = settings.unwrap,
+                                        .density = settings.density,
+                                        .gap = settings.pack.gap,
+                                        .mostSide = settings.pack.side});
   if (plan.charts.charts.empty())
     return error(ErrorKind::Input,
                  "'{}': found no triangle that takes light; wanted a scene with surfaces",
