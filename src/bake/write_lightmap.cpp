@@ -6,9 +6,11 @@
 
 #include "core/file.hpp"
 #include "core/hash.hpp"
+#include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "image/image_file.hpp"
+#include "lightmap/gltf_copy.hpp"
 #include "lightmap/manifest.hpp"
 
 namespace lucerna::bake {
@@ -63,6 +65,42 @@ Status writeMaps(const BakedLight& baked, const fs::path& folder, Manifest& mani
   return {};
 }
 
+std::string radianceName(std::size_t map) {
+  return fmt::format("map-{:03}.hdr", map);
+}
+
+// The maps once more, as programs that read the copy can read them.
+Status writeRadiance(const BakedLight& baked, const fs::path& folder, Manifest& manifest) {
+  std::vector<std::optional<Result<FileEntry>>> entries(baked.maps.size());
+  parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::string name = radianceName(i);
+      const Result<Bytes> bytes =
+          encodeImage(folder / name, converted(baked.maps[i], ComponentType::F32, 3));
+      entries[i] = bytes ? write(folder, name, *bytes) : Result<FileEntry>(bytes.error());
+    }
+  });
+  for (auto& entry : entries) {
+    if (!*entry) return entry->error();
+    manifest.gltf.push_back(std::move(**entry));
+  }
+  return {};
+}
+
+Status writeCopy(const Plan& plan, const BakedLight& baked, const fs::path& folder,
+                 const lightmap::Layout& layout, Manifest& manifest) {
+  LUCERNA_TRY_VOID(writeRadiance(baked, folder, manifest));
+  std::vector<scene::GltfLightmap> pictures;
+  for (std::size_t i = 0; i < baked.maps.size(); ++i) pictures.push_back({radianceName(i)});
+  std::vector<std::uint32_t> lights;
+  for (const scene::PlacedLight& light : plan.groups[0].lights) lights.push_back(light.light);
+  LUCERNA_TRY(copy, lightmap::writeGltfCopy(*plan.world.scene, layout, std::move(pictures), lights,
+                                            folder));
+  for (const std::string& note : copy.notes) log::info("scene.gltf: {}", note);
+  std::ranges::move(copy.files, std::back_inserter(manifest.gltf));
+  return {};
+}
+
 void describeScene(const Plan& plan, Manifest& manifest) {
   const scene::Scene& scene = *plan.world.scene;
   manifest.scene = scene.name;
@@ -94,6 +132,7 @@ std::set<std::string> namesIn(const Manifest& manifest) {
     for (const FileEntry& encoded : map.encoded) names.insert(encoded.file);
   }
   for (const lightmap::PatchEntry& patch : manifest.patches) names.insert(patch.patch.file);
+  for (const FileEntry& entry : manifest.gltf) names.insert(entry.file);
   return names;
 }
 
@@ -119,9 +158,11 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   const std::set<std::string> before = namesBefore(folder);
   Manifest manifest;
   describeScene(plan, manifest);
-  LUCERNA_TRY(layout, write(folder, "layout.bin", lightmap::toBytes(layoutOf(plan))));
-  manifest.layout = std::move(layout);
+  const lightmap::Layout layout = layoutOf(plan);
+  LUCERNA_TRY(entry, write(folder, "layout.bin", lightmap::toBytes(layout)));
+  manifest.layout = std::move(entry);
   LUCERNA_TRY_VOID(writeMaps(baked, folder, manifest));
+  LUCERNA_TRY_VOID(writeCopy(plan, baked, folder, layout, manifest));
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / "manifest.json", lightmap::toJson(manifest)));

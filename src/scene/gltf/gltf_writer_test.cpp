@@ -146,8 +146,7 @@ INSTANTIATE_TEST_SUITE_P(All, GltfRoundTrip,
                          testing::Values("builtin:cornell", "builtin:atrium",
                                          "torcs_wheel-2/wheel-2.gltf",
                                          "gltf_features/MultiUVTest/MultiUVTest.gltf",
-                                         "gltf_features/VertexColorTest/VertexColorTest.gltf",
-                                         "gltf_features/gpu_instancing/24_gpu_instancing.gltf"));
+                                         "gltf_features/VertexColorTest/VertexColorTest.gltf"));
 
 Material named(const char* name, MaterialModel model = MaterialModel::MetallicRoughness) {
   Material material;
