@@ -15,6 +15,16 @@ std::string checkGl(const std::string& value) {
                      didYouMean(value, choices));
 }
 
+void addLightmapFlags(CLI::App& command, app::RenderSettings& settings) {
+  CLI::Option* lightmap =
+      command.add_option("--lightmap", settings.lightmap,
+                         "DIR that `lucerna bake` made of this scene: its light instead of those "
+                         "lights'");
+  addRepeatable(command, "--lights-off", settings.lightsOff,
+                "GROUP of the lightmap's lights that is off; repeatable")
+      ->needs(lightmap);
+}
+
 }  // namespace
 
 CLI::Option* addRepeatable(CLI::App& command, const std::string& name,
@@ -50,8 +60,14 @@ void addSceneFlags(CLI::App& command, app::RenderSettings& settings) {
 }
 
 void addRenderFlags(CLI::App& command, app::RenderSettings& settings) {
-  command.add_option("--pipeline", settings.pipeline,
-                     "shipped NAME, FILE.js or FILE.json (deferred)");
+  const CLI::Option* pipeline =
+      command.add_option("--pipeline", settings.pipeline,
+                         "shipped NAME, FILE.js or FILE.json (deferred; lightmapped with "
+                         "--lightmap)");
+  addLightmapFlags(command, settings);
+  command.parse_complete_callback([&settings, pipeline] {
+    if (!settings.lightmap.empty() && pipeline->count() == 0) settings.pipeline = "lightmapped";
+  });
   addRepeatable(command, "--set", settings.sets,
                 "Pass.param=value, Pass.enabled=false or script.name=value; repeatable");
   addPluginFlag(command, settings.plugins);

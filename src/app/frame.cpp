@@ -144,6 +144,7 @@ Status runSteps(Session& s, const graph::Executor::OnView& take) {
   graph::Imports shared;
   shared.set("scene", s.gpuScene);
   shared.set("lights", s.lights);
+  shared.set("lightmaps", s.lightmaps);
   shared.set("views", s.viewGroup);
   std::vector<graph::Imports> views(s.views.size());
   for (std::size_t i = 0; i < views.size(); ++i) views[i].set("view", s.views[i]);

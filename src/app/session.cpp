@@ -2,6 +2,7 @@
 
 #include <future>
 
+#include "app/baked_light.hpp"
 #include "app/prepare_scene.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
@@ -39,6 +40,13 @@ Status takeScene(Session& session, Result<scene::Scene> loaded) {
                  "another by --camera",
                  session.scene.cameras[camera].name);
   return {};
+}
+
+// Before the scene goes to the GPU: objects get meshes that know their places in the maps.
+Status takeLightmaps(Session& session) {
+  if (session.settings.lightmap.empty()) return {};
+  LUCERNA_TRY(maps, takeBakedLight(session.scene, session.settings));
+  return render::upload(*session.device, session.lightmaps, maps);
 }
 
 Status checkFolder(const std::string& folder) {
@@ -107,6 +115,7 @@ Result<std::unique_ptr<Session>> openSession(const RenderSettings& settings,
   Result<scene::Scene> scene = loading.get();
   LUCERNA_TRY_VOID(opened);
   LUCERNA_TRY_VOID(takeScene(*session, std::move(scene)));
+  LUCERNA_TRY_VOID(takeLightmaps(*session));
 
   gpu::Device& device = *session->device;
   scene::animate(session->scene, static_cast<float>(session->time()));

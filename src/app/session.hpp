@@ -20,6 +20,7 @@
 #include "graph/registry.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/light_list.hpp"
+#include "render/lightmaps.hpp"
 #include "render/view_data.hpp"
 #include "render/view_group.hpp"
 
@@ -42,6 +43,7 @@ struct Session {
   std::unique_ptr<gpu::Device> device;
   render::GpuScene gpuScene;
   render::LightList lights;
+  render::Lightmaps lightmaps;          // without maps unless settings.lightmap
   ViewPlan plan;                        // follows from the pipeline and the size
   std::vector<render::ViewData> views;  // as plan.places
   render::ViewGroup viewGroup;

@@ -27,12 +27,14 @@ struct StereoSettings {
 
 struct RenderSettings {
   std::string scene;
-  std::string pipeline = "deferred";  // shipped name, .js or .json
-  std::vector<std::string> sets;      // "Pass.param=value", "script.name=value"
-  std::vector<std::string> plugins;   // shared libraries with passes
-  uvec2 size{1280, 720};              // px of the output, with two eyes of each
-  int scale = 100;                    // percent: rendering size / output size
-  int tile = 0;                       // px a side, a multiple of kTileGrid; 0: as the driver needs
+  std::string pipeline = "deferred";   // shipped name, .js or .json
+  std::vector<std::string> sets;       // "Pass.param=value", "script.name=value"
+  std::vector<std::string> plugins;    // shared libraries with passes
+  std::string lightmap;                // folder that `lucerna bake` made; "": none
+  std::vector<std::string> lightsOff;  // groups of its lights
+  uvec2 size{1280, 720};               // px of the output, with two eyes of each
+  int scale = 100;                     // percent: rendering size / output size
+  int tile = 0;                        // px a side, a multiple of kTileGrid; 0: as the driver needs
   StereoSettings stereo;
   std::string camera;      // "": the scene's first
   std::string cameraPath;  // file; "": none

@@ -65,6 +65,7 @@ class BlockLighter {
 
   // Emitting surfaces, tile by tile.
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
+  void findNodes(const Samples& samples);
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
@@ -82,8 +83,8 @@ class BlockLighter {
   std::vector<std::uint32_t> lit_;  // samples that they lead to
   std::vector<vec3> values_;        // what these get if nothing is in the way; of emitters
   ShadowRays rays_;
-  std::vector<vec3> shares_;          // of the light that they let through
-  std::vector<std::uint32_t> stack_;  // nodes of emitters
+  std::vector<vec3> shares_;                  // of the light that they let through
+  std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
   // Of a light, one a sample:
   std::vector<vec3> light_;
   std::vector<float> seen_;          // of the points asked

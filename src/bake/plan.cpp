@@ -1,6 +1,7 @@
 #include "bake/plan.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "bake/plan_hash.hpp"
 #include "core/text.hpp"
@@ -103,6 +104,10 @@ vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point) {
   const PackedCharts& packed = plan.packed;
   return placedPoint(packed.packing.places[chart], packed.masks[chart].size(),
                      point - packed.least[chart]);
+}
+
+float irradianceOfWhite(const scene::Scene& scene) {
+  return kPi * std::exp2(-scene.exposure);
 }
 
 lightmap::Layout layoutOf(const Plan& plan) {

@@ -72,6 +72,9 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings);
 ivec2 placed(const Plan& plan, std::uint32_t chart, ivec2 texel);
 vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point);
 
+// The irradiance that a white surface shows as white at the scene's exposure.
+float irradianceOfWhite(const scene::Scene& scene);
+
 lightmap::Layout layoutOf(const Plan& plan);
 
 }  // namespace lucerna::bake

@@ -37,6 +37,7 @@ struct Samples {
     Aabb boundsW;
   };
   std::vector<Tile> tiles;  // those that have any
+  float texelSize = 0.f;    // m, of a texel's side in the world
   Aabb boundsW;
   // Bounds of the normals: all lie within the angle of this cosine around the axis. -1: any.
   vec3 axis{0.f};

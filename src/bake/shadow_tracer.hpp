@@ -2,6 +2,7 @@
 // two engines that answer it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -39,5 +40,13 @@ class ShadowTracer {
 
 // By Embree, in packets of sixteen. The world outlives it, and so below.
 std::unique_ptr<ShadowTracer> makeEmbreeTracer(const World& world);
+
+// One ray at a time through an octree, the thesis' way (spec B, section 5.1.3): the baseline.
+struct OctreeSettings {
+  std::size_t leafSize = 20;  // a cell of more triangles is cut, where that helps (octree.hpp)
+  bool mailboxes = true;      // whether a ray tests a triangle in several leaves only once
+};
+std::unique_ptr<ShadowTracer> makeOctreeTracer(const World& world,
+                                               const OctreeSettings& settings = {});
 
 }  // namespace lucerna::bake

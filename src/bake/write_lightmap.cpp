@@ -4,13 +4,13 @@
 #include <optional>
 #include <set>
 
+#include "bake/make_patch.hpp"
+#include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
-#include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "image/image_file.hpp"
-#include "lightmap/gltf_copy.hpp"
 #include "lightmap/manifest.hpp"
 
 namespace lucerna::bake {
@@ -65,39 +65,63 @@ Status writeMaps(const BakedLight& baked, const fs::path& folder, Manifest& mani
   return {};
 }
 
-std::string radianceName(std::size_t map) {
-  return fmt::format("map-{:03}.hdr", map);
+// What is factored out of a group's light: its lights' common colour; else their sum, which only
+// scales what is stored.
+vec3 colorOf(const LightGroup& group) {
+  vec3 sum(0.f);
+  for (const scene::PlacedLight& light : group.lights) sum += light.intensity;
+  return group.lights.empty() ? vec3(1.f) : sum / static_cast<float>(group.lights.size());
 }
 
-// The maps once more, as programs that read the copy can read them.
-Status writeRadiance(const BakedLight& baked, const fs::path& folder, Manifest& manifest) {
-  std::vector<std::optional<Result<FileEntry>>> entries(baked.maps.size());
-  parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::string name = radianceName(i);
-      const Result<Bytes> bytes =
-          encodeImage(folder / name, converted(baked.maps[i], ComponentType::F32, 3));
-      entries[i] = bytes ? write(folder, name, *bytes) : Result<FileEntry>(bytes.error());
-    }
+// The texels that a lookup may meet: on the scene, and the filled ones beside them.
+std::vector<std::vector<bool>> usedTexels(const MapTexels& texels) {
+  std::vector<std::vector<bool>> used = texels.touched;
+  const int side = texels.side;
+  for (std::size_t map = 0; map < used.size(); ++map)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        if (texels.isBeside(static_cast<int>(map), {x, y}))
+          used[map][static_cast<std::size_t>(y) * side + x] = true;
+  return used;
+}
+
+MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<const LitTexel> lit,
+                    float white) {
+  std::vector<PatchTexel> texels;
+  texels.reserve(lit.size());
+  for (const LitTexel& t : lit)
+    texels.push_back(
+        {.map = t.map,
+         .x = t.x,
+         .y = t.y,
+         .value = {floatFromHalf(t.rgb[0]), floatFromHalf(t.rgb[1]), floatFromHalf(t.rgb[2])}});
+  // A quarter of what can be seen at once, as several groups may add up.
+  return maker.make({.group = group.name, .color = colorOf(group), .texels = texels},
+                    {.light = white / 1024.f, .black = white / 16384.f});
+}
+
+Status writePatches(const Plan& plan, const BakedLight& baked, const fs::path& folder,
+                    Manifest& manifest) {
+  if (plan.groups.size() < 2) return {};
+  const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
+  const lightmap::Layout layout = layoutOf(plan);
+  const PatchMaker maker(layout, used);
+  const float white = irradianceOfWhite(*plan.world.scene);
+  std::vector<MadePatch> made(plan.groups.size());
+  parallelFor(made.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end + 1; ++i)
+      made[i] = makePatch(maker, plan.groups[i], baked.groups[i], white);
   });
-  for (auto& entry : entries) {
-    if (!*entry) return entry->error();
-    manifest.gltf.push_back(std::move(**entry));
+  for (std::size_t i = 1; i < made.size(); ++i) {
+    lightmap::PatchEntry entry;
+    entry.group = plan.groups[i].name;
+    LUCERNA_TRY(file, write(folder, fmt::format("patch-{:03}.bin", i - 1), made[i].bytes));
+    entry.patch = std::move(file);
+    entry.form = made[i].patch.form();
+    entry.bytes = made[i].bytes.size();
+    entry.otherBytes = made[i].otherBytes;
+    manifest.patches.push_back(std::move(entry));
   }
-  return {};
-}
-
-Status writeCopy(const Plan& plan, const BakedLight& baked, const fs::path& folder,
-                 const lightmap::Layout& layout, Manifest& manifest) {
-  LUCERNA_TRY_VOID(writeRadiance(baked, folder, manifest));
-  std::vector<scene::GltfLightmap> pictures;
-  for (std::size_t i = 0; i < baked.maps.size(); ++i) pictures.push_back({radianceName(i)});
-  std::vector<std::uint32_t> lights;
-  for (const scene::PlacedLight& light : plan.groups[0].lights) lights.push_back(light.light);
-  LUCERNA_TRY(copy, lightmap::writeGltfCopy(*plan.world.scene, layout, std::move(pictures), lights,
-                                            folder));
-  for (const std::string& note : copy.notes) log::info("scene.gltf: {}", note);
-  std::ranges::move(copy.files, std::back_inserter(manifest.gltf));
   return {};
 }
 
@@ -162,7 +186,8 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   LUCERNA_TRY(entry, write(folder, "layout.bin", lightmap::toBytes(layout)));
   manifest.layout = std::move(entry);
   LUCERNA_TRY_VOID(writeMaps(baked, folder, manifest));
-  LUCERNA_TRY_VOID(writeCopy(plan, baked, folder, layout, manifest));
+  LUCERNA_TRY_VOID(writePatches(plan, baked, folder, manifest));
+  LUCERNA_TRY_VOID(writeGltf(plan, baked, layout, folder, manifest.gltf));
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / "manifest.json", lightmap::toJson(manifest)));

@@ -154,9 +154,12 @@ class Device {
   Texture createTexture(const TextureDesc& desc, std::string label,
                         std::string_view remedy = kRenderSmaller);
   // Level 0 of one layer from pixels that fit the format (U8 for unorm and sRGB, F32/Half for
-  // float; integer formats take components of their own width, 32-bit ones as the bits of F32).
+  // float; integer formats take components of their own width, 32-bit ones as the bits of F32, and
+  // Rgb9E5 takes one such channel for texels that are packed already).
   // Image rows are top first, and so is texture row 0: v = 0 is the top, as glTF has it.
   void upload(const Texture& texture, const Image& image, int layer = 0);
+  // The same of a part of it, whose first texel is that one.
+  void uploadPart(const Texture& texture, const Image& image, int layer, ivec2 first);
   void generateMipmaps(const Texture& texture);
   void clear(const Texture& texture, vec4 value);  // all of level 0; linear, also in sRGB formats
   // The same of a square or so in one layer of an array's level 0.

@@ -89,6 +89,8 @@ Transfer uploadTransfer(Format format, int channels, ComponentType type) {
   CHECK(!isInteger(target.kind) || type == componentOf(target),
         "{} takes integers of its own width ({} bytes)", target.name,
         bytesPer(componentOf(target)));
+  if (format == Format::Rgb9E5 && channels == 1 && type == ComponentType::F32)
+    return {GL_RGB, GL_UNSIGNED_INT_5_9_9_9_REV};
   return {layoutOf(target, channels), componentType(type, target.kind)};
 }
 

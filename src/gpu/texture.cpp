@@ -130,17 +130,25 @@ Texture Device::createTexture(const TextureDesc& wanted, std::string label,
 }
 
 void Device::upload(const Texture& texture, const Image& image, int layer) {
-  checkLayer(texture, layer);
   CHECK(image.width() == texture.width() && image.height() == texture.height(),
         "texture '{}' is {}x{}, the image {}x{}", texture.label(), texture.width(),
         texture.height(), image.width(), image.height());
+  uploadPart(texture, image, layer, ivec2(0));
+}
+
+void Device::uploadPart(const Texture& texture, const Image& image, int layer, ivec2 first) {
+  checkLayer(texture, layer);
+  CHECK(first.x >= 0 && first.y >= 0 && first.x + image.width() <= texture.width() &&
+            first.y + image.height() <= texture.height(),
+        "texture '{}' is {}x{}, the part {}x{} at {}, {}", texture.label(), texture.width(),
+        texture.height(), image.width(), image.height(), first.x, first.y);
   const Transfer transfer = uploadTransfer(texture.format(), image.channels(), image.type());
   if (isLayered(texture.desc()))
-    glTextureSubImage3D(texture.id(), 0, 0, 0, layer, image.width(), image.height(), 1,
+    glTextureSubImage3D(texture.id(), 0, first.x, first.y, layer, image.width(), image.height(), 1,
                         transfer.layout, transfer.type, image.bytes().data());
   else
-    glTextureSubImage2D(texture.id(), 0, 0, 0, image.width(), image.height(), transfer.layout,
-                        transfer.type, image.bytes().data());
+    glTextureSubImage2D(texture.id(), 0, first.x, first.y, image.width(), image.height(),
+                        transfer.layout, transfer.type, image.bytes().data());
   impl_->counters.uploads += image.bytes().size();
 }
 

@@ -44,8 +44,8 @@ Result<Lightmap> readLightmap(const std::filesystem::path& folder) {
   LUCERNA_TRY(manifest, manifestFrom(text, path.string()));
   lightmap.manifest = std::move(manifest);
   const Manifest& m = lightmap.manifest;
-  LUCERNA_TRY(bytes, readEntry(folder, m.layout));
-  LUCERNA_TRY(layout, layoutFrom(bytes, (folder / m.layout.file).string()));
+  LUCERNA_TRY(layoutBytes, readEntry(folder, m.layout));
+  LUCERNA_TRY(layout, layoutFrom(layoutBytes, (folder / m.layout.file).string()));
   if (layout.side != m.side || layout.maps != static_cast<int>(m.maps.size()))
     return error(ErrorKind::Input,
                  "{}: the layout has {} maps of {} texels a side, the manifest {} of {}; bake the "
@@ -55,6 +55,11 @@ Result<Lightmap> readLightmap(const std::filesystem::path& folder) {
   for (const MapEntry& map : m.maps) {
     LUCERNA_TRY(image, readMap(folder, map, m.side));
     lightmap.maps.push_back(std::move(image));
+  }
+  for (const PatchEntry& entry : m.patches) {
+    LUCERNA_TRY(bytes, readEntry(folder, entry.patch));
+    LUCERNA_TRY(patch, patchFrom(bytes, (folder / entry.patch.file).string()));
+    lightmap.patches.push_back(std::move(patch));
   }
   return lightmap;
 }

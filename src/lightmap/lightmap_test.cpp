@@ -90,6 +90,17 @@ TEST(Manifest, TextAndBack) {
   EXPECT_EQ(back->gltf[1].hash, hashText16(7));
 }
 
+TEST(Manifest, WhatHasNoNameComesBackWithoutOne) {
+  Manifest manifest = smallManifest();
+  manifest.processor.clear();
+  manifest.objects[0].node.clear();
+  manifest.lights[0] = {.name = "", .group = "", .light = 4};
+  const Result<Manifest> back = manifestFrom(toJson(manifest), "manifest.json");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->objects.at(0).node, "");
+  EXPECT_EQ(back->lights.at(0).group, "");
+}
+
 TEST(Manifest, SaysEveryFault) {
   Manifest manifest = smallManifest();
   manifest.layout.file = "../layout.bin";
@@ -108,6 +119,7 @@ class BakedFolder : public ::testing::Test {
  protected:
   void SetUp() override {
     Manifest manifest = smallManifest();
+    manifest.patches.clear();
     Layout layout = smallLayout();
     layout.maps = 1;
     layout.objects[1].pop_back();

@@ -31,15 +31,25 @@ Json json(const PatchEntry& patch) {
           {"hash", patch.patch.hash}, {"bytes", patch.bytes}, {"otherBytes", patch.otherBytes}};
 }
 
+// Nodes and lights may be without a name, and lights without a group: an empty text is no text in
+// JSON as it is read here.
+void addText(Json& json, const char* key, const std::string& text) {
+  if (!text.empty()) json[key] = text;
+}
+
 Json json(const ObjectEntry& object) {
-  return {{"object", object.object},
-          {"node", object.node},
-          {"charts", object.charts},
-          {"maps", object.maps}};
+  Json result = {{"object", object.object}};
+  addText(result, "node", object.node);
+  result["charts"] = object.charts;
+  result["maps"] = object.maps;
+  return result;
 }
 
 Json json(const LightEntry& light) {
-  return {{"light", light.light}, {"name", light.name}, {"group", light.group}};
+  Json result = {{"light", light.light}};
+  addText(result, "name", light.name);
+  addText(result, "group", light.group);
+  return result;
 }
 
 template <typename T>
@@ -136,18 +146,18 @@ std::string hashText16(std::uint64_t hash) {
 }
 
 std::string toJson(const Manifest& m) {
-  const Json document{{"lucerna", kFormat},
-                      {"scene", {{"name", m.scene}, {"hash", m.sceneHash}}},
-                      {"settings", m.settings.empty() ? Json::object() : Json::parse(m.settings)},
-                      {"processor", m.processor},
-                      {"side", m.side},
-                      {"density", m.density},
-                      {"layout", json(m.layout)},
-                      {"maps", list(m.maps)},
-                      {"patches", list(m.patches)},
-                      {"objects", list(m.objects)},
-                      {"lights", list(m.lights)},
-                      {"gltf", list(m.gltf)}};
+  Json document{{"lucerna", kFormat},
+                {"scene", {{"name", m.scene}, {"hash", m.sceneHash}}},
+                {"settings", m.settings.empty() ? Json::object() : Json::parse(m.settings)}};
+  addText(document, "processor", m.processor);
+  document["side"] = m.side;
+  document["density"] = m.density;
+  document["layout"] = json(m.layout);
+  document["maps"] = list(m.maps);
+  document["patches"] = list(m.patches);
+  document["objects"] = list(m.objects);
+  document["lights"] = list(m.lights);
+  document["gltf"] = list(m.gltf);
   return document.dump(1) + "\n";
 }
 

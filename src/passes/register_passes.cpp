@@ -28,6 +28,7 @@
 #include "passes/tiled_lighting/tiled_lighting.hpp"
 #include "passes/tone_map/tone_map.hpp"
 #include "passes/transparency/transparency.hpp"
+#include "render/lightmaps.hpp"
 #include "render/view_group.hpp"
 
 // Made by the build from the shader files (cmake/embed_shaders.cmake).
@@ -46,6 +47,7 @@ void registerPasses(graph::Registry& registry) {
   registry.addResource<render::ViewData>("view", "Where this picture is seen from.", true);
   registry.addResource<render::ViewGroup>("views", "Where all pictures of a frame are seen from.");
   registry.addResource<render::LightList>("lights", "The lights that are on.");
+  registry.addResource<render::Lightmaps>("lightmaps", "Baked light, if the scene has any.");
 
   registry.add<Cull>();
   registry.add<GBuffer>();

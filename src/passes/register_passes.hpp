@@ -5,8 +5,8 @@
 
 namespace lucerna::passes {
 
-// Adds every pass, the resources "scene", "view" (per view) and "lights", and the shaders of
-// render/ and passes/.
+// Adds every pass, the resources "scene", "view" (per view), "views", "lights" and "lightmaps", and
+// the shaders of render/ and passes/.
 void registerPasses(graph::Registry& registry);
 
 }  // namespace lucerna::passes

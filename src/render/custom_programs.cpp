@@ -17,6 +17,7 @@ constexpr std::array kTextures = {
     "occlusionTexture", "specularTexture", "albedoCube",    "emissiveCube"};
 // What the files that a custom shader includes declare for the renderer to set.
 constexpr std::array kUniforms = {"time", "ambientScale"};
+constexpr std::string_view kLightmaps = "lightmaps";
 constexpr const char* kInterface = "render/custom_shader.glsl";
 
 std::string typeOf(const scene::CustomShader::Parameter& parameter) {
@@ -50,6 +51,8 @@ std::string missing(const gpu::ProgramInput& input, const scene::Scene& scene,
   const bool isOpaque = input.type.find("sampler") != std::string::npos ||
                         input.type.find("image") != std::string::npos;
   if (!isOpaque) return "";
+  // Declared where there is baked light alone (render/baked_light.glsl).
+  if (input.name == kLightmaps && input.type == "sampler2DArray") return "";
   const bool cube = input.type == "samplerCube";
   if (!cube && input.type != "sampler2D")
     return fmt::format("it reads the {} '{}', wanted sampler2D or samplerCube", input.type,
@@ -68,7 +71,7 @@ CustomPrograms::CustomPrograms(gpu::Device& device, std::map<std::string, std::s
     : device_(device), defines_(std::move(defines)) {}
 
 const gpu::Program* CustomPrograms::of(const scene::Scene& scene, const scene::Material& material,
-                                       double time) {
+                                       double time, bool baked) {
   gpu::ProgramDesc desc{.vertex = "render/object.vert",
                         .fragment = material.shader.file,
                         .compute = {},
@@ -76,6 +79,7 @@ const gpu::Program* CustomPrograms::of(const scene::Scene& scene, const scene::M
   desc.defines["CUSTOM_SHADER"] = "1";
   if (material.alphaMode == scene::AlphaMode::Mask) desc.defines["ALPHA_TEST"] = "1";
   if (usesTextureEnvironment(material)) desc.defines["TEXTURE_ENVIRONMENT"] = "1";
+  if (baked) desc.defines["BAKED_LIGHT"] = "1";
   const gpu::ProgramPtr program = device_.program(desc);  // the device keeps it
   if (!program->usable() || !isCustomShader(*program, material) ||
       !takesParameters(*program, material) || !hasAllInputs(*program, scene, material))
@@ -96,7 +100,8 @@ bool CustomPrograms::isCustomShader(const gpu::Program& program, const scene::Ma
   for (const auto& parameter : material.shader.parameters)
     if (isAmong(kUniforms, parameter.name)) return refuseOwnName(material, parameter.name);
   for (const auto& texture : material.shader.textures)
-    if (isAmong(kTextures, texture.name)) return refuseOwnName(material, texture.name);
+    if (isAmong(kTextures, texture.name) || texture.name == kLightmaps)
+      return refuseOwnName(material, texture.name);
   return true;
 }
 

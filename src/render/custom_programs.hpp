@@ -17,8 +17,9 @@ class CustomPrograms {
 
   // The material's program with its parameters and the scene's time (s) set. Null if it does not
   // compile, or reads what the material does not give it: Device::takeErrors() says why, each time.
-  // A parameter that it does not read is warned of once.
-  const gpu::Program* of(const scene::Scene& scene, const scene::Material& material, double time);
+  // A parameter that it does not read is warned of once. baked: as for ObjectPrograms.
+  const gpu::Program* of(const scene::Scene& scene, const scene::Material& material, double time,
+                         bool baked = false);
 
  private:
   bool isCustomShader(const gpu::Program& program, const scene::Material& material);

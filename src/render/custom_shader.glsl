@@ -7,7 +7,7 @@
 //
 //   s.positionW, s.normalW, s.toEyeW, s.albedo, s.emissive, ...   render/surface.glsl: the surface as
 //                                the material and its textures describe it, metres, world space
-//   shade(s)                     s lit by the ambient light and all lights; s may be changed before
+//   shade(s)                     s lit by the ambient light, baked light and all lights; s may be changed before
 //   objectPositionO              the point in the object's own space, m
 //   texCoords, vertexColor       as the mesh has them: set 0 in xy, set 1 in zw
 //   view, lights, material       render/view.glsl, render/lights.glsl, render/scene.glsl

@@ -10,6 +10,7 @@ void ForwardShading::draw(gpu::Rendering& rendering, const Inputs& inputs, const
                           const gpu::RenderState& state) {
   rendering.buffer("ViewBlock", inputs.view.block);
   rendering.buffer("LightBlock", inputs.lights.block);
+  if (bakesLight(inputs.scene, inputs.lightmaps)) bindLightmaps(rendering, *inputs.lightmaps);
   drawList(rendering, inputs.scene, list, state,
            [&](const scene::Material& material) { return programOf(inputs, material); });
 }
@@ -18,9 +19,10 @@ const gpu::Program* ForwardShading::programOf(const Inputs& inputs,
                                               const scene::Material& material) {
   const bool custom = material.shader.used();
   if (inputs.onlyCustom && !custom) return nullptr;
-  const gpu::Program* program = custom
-                                    ? customPrograms_.of(*inputs.scene.scene, material, inputs.time)
-                                    : &programs_.of(material);
+  const bool baked = bakesLight(inputs.scene, inputs.lightmaps);
+  const gpu::Program* program =
+      custom ? customPrograms_.of(*inputs.scene.scene, material, inputs.time, baked)
+             : &programs_.of(material, baked);
   if (program) program->set("ambientScale", inputs.ambient);
   return program;
 }

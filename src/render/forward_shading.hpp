@@ -8,6 +8,7 @@
 #include "render/custom_programs.hpp"
 #include "render/draw_list.hpp"
 #include "render/light_list.hpp"
+#include "render/lightmaps.hpp"
 #include "render/object_programs.hpp"
 #include "render/view_data.hpp"
 
@@ -23,9 +24,10 @@ class ForwardShading {
     const GpuScene& scene;
     const ViewData& view;
     const LightList& lights;
-    float ambient = 1.f;      // factor on the scene's ambient light
-    double time = 0;          // s, for custom shaders
-    bool onlyCustom = false;  // leaves out materials without a shader of their own
+    const Lightmaps* lightmaps = nullptr;  // null: without baked light
+    float ambient = 1.f;                   // factor on the scene's ambient light
+    double time = 0;                       // s, for custom shaders
+    bool onlyCustom = false;               // leaves out materials without a shader of their own
   };
   // state: as for drawList().
   void draw(gpu::Rendering& rendering, const Inputs& inputs, const DrawList& list,

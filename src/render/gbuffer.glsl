@@ -5,6 +5,7 @@
 //                             light (linear)
 //   material  Rgba8Uint       r type, g shininess 0..255 (Phong) or roughness, b metallic, a 0
 //   emissive  R11G11B10Float  radiance
+//   bakedIrradiance  Rgba16Float  irradiance, 1; only where GBuffer's parameter `baked` asks for it
 #include "render/normal_encoding.glsl"
 #include "render/surface.glsl"
 #include "render/view.glsl"

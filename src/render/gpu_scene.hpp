@@ -41,9 +41,11 @@ struct GpuScene {
   scene::Bvh bvh;                 // over the objects' boxes; refitted when objects move
   std::vector<MeshRange> meshes;  // as Scene::meshes
   gpu::Buffer vertices, indices;
+  // Mesh::lightmap of all vertices, -1 for the map of those without; none if no mesh has any.
+  gpu::Buffer lightmapCoords;
   gpu::Buffer listIndices;  // 0, 1, 2, ...; one an object, and enough for lists of several views
   std::size_t longestList() const { return listIndices.bytes() / sizeof(std::uint32_t); }
-  gpu::VertexInput input;
+  gpu::VertexInput input;          // location 7 only with lightmapCoords
   gpu::Buffer objects, materials;  // ObjectBlock, MaterialBlock
   // As Scene::textures, each sRGB or linear as used; empty if nothing uses it. GL's cube maps are
   // left-handed: look one up at (x, y, -z).

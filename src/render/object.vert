@@ -1,9 +1,11 @@
 // Places the scene's vertices: the vertex shader of everything that draws a render::DrawList.
 //   TEXTURE_ENVIRONMENT  for materials with generated coordinates (render/texture_environment.glsl)
 //   CUSTOM_SHADER        for materials with a shader of their own (render/custom_shader.glsl)
+//   BAKED_LIGHT          gives where baked light lies (render/baked_light.glsl)
 //   SHADOW_VIEWS         instances say which view they are drawn in
 //   SHADOW_LAYERS        and that chooses the layer
 // variant: TEXTURE_ENVIRONMENT=1
+// variant: BAKED_LIGHT=1
 // variant: SHADOW_VIEWS=1
 // variant: SHADOW_VIEWS=1 SHADOW_LAYERS=1
 #ifdef SHADOW_LAYERS
@@ -25,6 +27,9 @@ layout(location = 3) in vec2 texCoord0;
 layout(location = 4) in vec2 texCoord1;
 layout(location = 5) in vec4 color;        // linear
 layout(location = 6) in uint listIndex;    // once an instance, reached through baseInstance
+#ifdef BAKED_LIGHT
+layout(location = 7) in vec3 lightmap;     // u, v and the map; -1: none
+#endif
 
 layout(std430) readonly buffer DrawOrderBlock { uint drawOrder[]; };  // the list's objects
 
@@ -38,6 +43,9 @@ layout(location = 3) out vec4 texCoords;   // set 0 in xy, set 1 in zw
 layout(location = 4) out vec4 vertexColor;
 #if defined(TEXTURE_ENVIRONMENT) || defined(CUSTOM_SHADER)
 layout(location = 5) out vec3 objectPositionO;
+#endif
+#ifdef BAKED_LIGHT
+layout(location = 6) out vec3 lightmapCoords;
 #endif
 
 void main() {
@@ -63,6 +71,9 @@ void main() {
   vertexColor = color;
 #if defined(TEXTURE_ENVIRONMENT) || defined(CUSTOM_SHADER)
   objectPositionO = positionO;
+#endif
+#ifdef BAKED_LIGHT
+  lightmapCoords = lightmap;
 #endif
   gl_Position = windowPosition(view.viewFromWorld * position);
   gl_ClipDistance[0] = dot(view.clipPlaneW, position);

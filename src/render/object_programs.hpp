@@ -13,17 +13,20 @@ namespace lucerna::render {
 
 class ObjectPrograms {
  public:
-  // fragment: includes render/object_surface.glsl and knows ALPHA_TEST and TEXTURE_ENVIRONMENT.
+  // fragment: includes render/object_surface.glsl and knows ALPHA_TEST and TEXTURE_ENVIRONMENT, and
+  // BAKED_LIGHT if it is asked for.
   ObjectPrograms(gpu::Device& device, std::string fragment,
                  std::map<std::string, std::string> defines = {});
 
   // Draws nothing if it does not compile; Device::takeErrors() then says why, each time.
-  const gpu::Program& of(const scene::Material& material);
+  // baked: with BAKED_LIGHT, for scenes that have it (bakesLight() of render/lightmaps.hpp).
+  const gpu::Program& of(const scene::Material& material, bool baked = false);
 
  private:
   gpu::Device& device_;
   gpu::ProgramDesc desc_;
-  std::array<gpu::ProgramPtr, 4> variants_;  // bit 0: alpha test, bit 1: texture environment
+  // Bit 0: alpha test, bit 1: texture environment, bit 2: baked light.
+  std::array<gpu::ProgramPtr, 8> variants_;
 };
 
 }  // namespace lucerna::render

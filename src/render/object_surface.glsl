@@ -5,6 +5,7 @@
 //   EACH_SAMPLE          of a multisampled target: the alpha test is made at each sample, so that the holes'
 //                        edges run through pixels
 //   SHADOW_VIEWS         see render/object.vert
+//   BAKED_LIGHT          see render/surface.glsl
 #ifdef SHADOW_VIEWS
 layout(location = 6) flat in uint viewIndex;
 #endif
@@ -12,6 +13,9 @@ layout(location = 6) flat in uint viewIndex;
 #include "render/scene.glsl"
 #include "render/surface.glsl"
 #include "render/view.glsl"
+#ifdef BAKED_LIGHT
+#include "render/baked_light.glsl"
+#endif
 
 layout(location = 0) in vec3 positionW;
 layout(location = 1) in vec3 normalW;
@@ -124,5 +128,8 @@ Surface surfaceOf(vec4 baseColor) {
   s.metallic = material.surface.x * metallicRoughness.b;
   s.roughness = material.surface.y * metallicRoughness.g;
   if (s.type == kTypeSpecularGlossiness) readSpecularGlossiness(specular, s);
+#ifdef BAKED_LIGHT
+  s.bakedIrradiance = bakedIrradianceHere();
+#endif
   return s;
 }

@@ -1,5 +1,6 @@
 // Reading the G-buffer back into a Surface.
 //   AMBIENT_VISIBILITY  a texture says how much of the ambient light arrives
+//   BAKED_LIGHT         a texture holds the baked irradiance
 #include "render/gbuffer.glsl"
 
 uniform sampler2D depth;
@@ -10,6 +11,9 @@ uniform usampler2D material;
 uniform sampler2D emissive;
 #ifdef AMBIENT_VISIBILITY
 uniform sampler2D ambientVisibility;
+#endif
+#ifdef BAKED_LIGHT
+uniform sampler2D bakedIrradiance;
 #endif
 
 // pixel: texel of the G-buffer; its depth must not be 0 (nothing drawn).
@@ -29,5 +33,8 @@ Surface readSurface(ivec2 pixel) {
 #endif
   s.emissive = texelFetch(emissive, pixel, 0).rgb;
   unpackMaterial(texelFetch(material, pixel, 0), s);
+#ifdef BAKED_LIGHT
+  s.bakedIrradiance = texelFetch(bakedIrradiance, pixel, 0).rgb;
+#endif
   return s;
 }

@@ -1,5 +1,6 @@
 // What a surface sends to the eye. The one place that shades: TiledLighting, Forward and Transparency
 // call shade() with the same Surface, so they agree.
+//   BAKED_LIGHT  see render/surface.glsl
 #include "render/lights.glsl"
 #include "render/tile_lights.glsl"
 #include "render/surface.glsl"
@@ -60,6 +61,14 @@ vec3 ambientReflectance(Surface s) {
   return s.type == kTypeSpecularGlossiness ? s.albedo + s.specular : s.albedo;
 }
 
+#ifdef BAKED_LIGHT
+// No direction is left of baked light: what would be reflected as highlight counts as diffuse.
+vec3 reflectedBakedLight(Surface s) {
+  float diffuse = s.type == kTypeMetallicRoughness ? 1.0 - s.metallic : 1.0;
+  return diffuse * s.albedo * s.bakedIrradiance / kPi;
+}
+#endif
+
 // Factor on the ambient light; each pass that shades has it as a parameter.
 uniform float ambientScale = 1.0;
 
@@ -80,6 +89,9 @@ vec3 arrivingLight(Surface s, uint light) {
 vec3 shade(Surface s) {
   if (s.type == kTypeUnlit) return s.albedo;
   vec3 radiance = s.emissive + ambientScale * ambientLight.rgb * ambientReflectance(s) * s.occlusion;
+#ifdef BAKED_LIGHT
+  radiance += reflectedBakedLight(s);
+#endif
   uvec2 pixel = uvec2(gl_FragCoord.xy);
   // One plain loop: where pixels leave an inner loop at different lights, llvmpipe (Mesa 22.3) takes
   // the index for equal in all of them and reads the wrong light.

@@ -1,4 +1,5 @@
 // A point of a surface as it is shaded, stored in the G-buffer and read back.
+//   BAKED_LIGHT  with its baked light
 
 // Material types, as the G-buffer stores them.
 const uint kTypeNothing = 0u;
@@ -20,4 +21,7 @@ struct Surface {
   float shininess;     // Phong
   float metallic;
   float roughness;
+#ifdef BAKED_LIGHT
+  vec3 bakedIrradiance;
+#endif
 };

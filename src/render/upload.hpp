@@ -5,7 +5,7 @@
 
 namespace lucerna::render {
 
-// meshes, vertices, indices, listIndices, input.
+// meshes, vertices, indices, lightmapCoords, listIndices, input.
 void uploadGeometry(gpu::Device& device, GpuScene& gpuScene);
 // The vertices of meshes whose version is another than on the GPU.
 void uploadBentMeshes(gpu::Device& device, GpuScene& gpuScene);

@@ -55,21 +55,40 @@ void writeVertices(const scene::Mesh& mesh, Vertex* to) {
   });
 }
 
+// Beside the other vertices, so that scenes without baked light and passes that do not ask for it
+// read nothing.
+void uploadLightmapCoords(gpu::Device& device, GpuScene& gpuScene, std::size_t vertexCount) {
+  const std::vector<scene::Mesh>& meshes = gpuScene.scene->meshes;
+  gpuScene.lightmapCoords = {};
+  const auto lit = [](const scene::Mesh& mesh) { return !mesh.lightmap.empty(); };
+  if (std::ranges::none_of(meshes, lit)) return;
+  std::vector<vec3> coords(vertexCount, vec3(0.f, 0.f, -1.f));
+  for (std::size_t m = 0; m < meshes.size(); ++m)
+    std::ranges::copy(meshes[m].lightmap, coords.begin() + gpuScene.meshes[m].baseVertex);
+  gpuScene.lightmapCoords =
+      device.createBuffer(std::as_bytes(std::span(coords)), "lightmap coordinates");
+}
+
 void makeInput(gpu::Device& device, GpuScene& gpuScene) {
   using Type = gpu::VertexAttribute::Type;
   const auto at = [](std::size_t offset) { return static_cast<std::uint32_t>(offset); };
-  gpuScene.input = device.createVertexInput(
-      {.buffers = {{.buffer = &gpuScene.vertices, .stride = sizeof(Vertex), .divisor = 0},
-                   {.buffer = &gpuScene.listIndices, .stride = 4, .divisor = 1}},
-       .attributes = {{0, 0, 3, Type::Float, at(offsetof(Vertex, position))},
-                      {1, 0, 3, Type::Snorm16, at(offsetof(Vertex, normal))},
-                      {2, 0, 4, Type::Snorm16, at(offsetof(Vertex, tangent))},
-                      {3, 0, 2, Type::Float, at(offsetof(Vertex, texCoord0))},
-                      {4, 0, 2, Type::Float, at(offsetof(Vertex, texCoord1))},
-                      {5, 0, 4, Type::Unorm8, at(offsetof(Vertex, color))},
-                      {6, 1, 1, Type::Uint32, 0}},
-       .indices = &gpuScene.indices},
-      "scene");
+  gpu::VertexInputDesc desc{
+      .buffers = {{.buffer = &gpuScene.vertices, .stride = sizeof(Vertex), .divisor = 0},
+                  {.buffer = &gpuScene.listIndices, .stride = 4, .divisor = 1}},
+      .attributes = {{0, 0, 3, Type::Float, at(offsetof(Vertex, position))},
+                     {1, 0, 3, Type::Snorm16, at(offsetof(Vertex, normal))},
+                     {2, 0, 4, Type::Snorm16, at(offsetof(Vertex, tangent))},
+                     {3, 0, 2, Type::Float, at(offsetof(Vertex, texCoord0))},
+                     {4, 0, 2, Type::Float, at(offsetof(Vertex, texCoord1))},
+                     {5, 0, 4, Type::Unorm8, at(offsetof(Vertex, color))},
+                     {6, 1, 1, Type::Uint32, 0}},
+      .indices = &gpuScene.indices};
+  if (gpuScene.lightmapCoords) {
+    desc.buffers.push_back(
+        {.buffer = &gpuScene.lightmapCoords, .stride = sizeof(vec3), .divisor = 0});
+    desc.attributes.push_back({7, 2, 3, Type::Float, 0});
+  }
+  gpuScene.input = device.createVertexInput(desc, "scene");
 }
 
 }  // namespace
@@ -102,6 +121,7 @@ void uploadGeometry(gpu::Device& device, GpuScene& gpuScene) {
   gpuScene.vertices = device.createBuffer(std::as_bytes(std::span(vertices)), "vertices");
   gpuScene.indices = device.createBuffer(std::as_bytes(std::span(indices)), "indices");
   gpuScene.listIndices = device.createBuffer(std::as_bytes(std::span(listIndices)), "list indices");
+  uploadLightmapCoords(device, gpuScene, vertexCount);
   makeInput(device, gpuScene);
 }
 

@@ -101,6 +101,7 @@ class CliTest(unittest.TestCase):
                                    "--set", "script.x=1"])
         fails("--fps", ".mp4", flags=["--fps", "25"])
         fails("--crf", "0 to 51", flags=["--crf", "60"])
+        fails("--lights-off", "--lightmap", flags=["--lights-off", "lamps"])
         self.assert_fails(2, ".png, .exr, .hdr, .mp4, .mkv", arguments=["render", ATRIUM, "-o", "a.avi"])
         self.assert_fails(2, "one file", arguments=["render", ATRIUM, "-o", "a-%d.mp4"])
         self.assert_fails(2, ".mkv", arguments=["render", ATRIUM, "-o", "a.mp4", "--lossless"])
@@ -133,6 +134,11 @@ class CliTest(unittest.TestCase):
         self.assert_fails(2, "Usage: lucerna pass", "list", "show", arguments=["pass"])
 
     # Input: exit 3
+
+    def test_a_folder_without_a_lightmap_is_named_in_one_line(self):
+        run = self.assert_fails(3, "'nowhere' holds no lightmap", "lucerna bake",
+                                arguments=["render", "builtin:cornell", "--lightmap", "nowhere", "-o", "a.png", *SMALL])
+        self.assertEqual(run.stderr.count("\n"), 1)
 
     def test_unreadable_input(self):
         bad = self.write("bad.gltf", "{")

@@ -109,6 +109,7 @@ Result<SceneRenderer::Output> SceneRenderer::render(const graph::Pipeline& pipel
   input.cut = true;
   input.shared.set("scene", gpuScene);
   input.shared.set("lights", lights);
+  input.shared.set("lightmaps", lightmaps);
   const render::ViewGroup viewGroup{{sceneView}};
   input.shared.set("views", viewGroup);
   input.views = views;

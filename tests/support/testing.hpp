@@ -14,6 +14,7 @@
 #include "image/image.hpp"
 #include "render/gpu_scene.hpp"
 #include "render/light_list.hpp"
+#include "render/lightmaps.hpp"
 #include "render/view_data.hpp"
 #include "scene/scene.hpp"
 
@@ -56,6 +57,7 @@ class SceneRenderer {
 
   render::GpuScene gpuScene;
   render::LightList lights;
+  render::Lightmaps lightmaps;  // none
   render::ViewData view;
   bool profiling = false;
 

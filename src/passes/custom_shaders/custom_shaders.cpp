@@ -26,6 +26,7 @@ void CustomShaders::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("scene", &Ports::scene).help("Geometry, materials and their shaders.");
   d.read("view", &Ports::view).help("The view to draw from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("lightmaps", &Ports::lightmaps).optional().help("Baked light, which is added.");
   d.read("drawLists", &Ports::drawLists)
       .help("What to draw: of all but its transparent list what has a custom shader.");
   d.read("depth", &Ports::depth)
@@ -54,6 +55,7 @@ void CustomShaders::execute(graph::PassContext& context, const Params& params, c
   const render::ForwardShading::Inputs inputs{.scene = *ports.scene,
                                               .view = *ports.view,
                                               .lights = *ports.lights,
+                                              .lightmaps = ports.lightmaps.get(),
                                               .ambient = params.ambient,
                                               .time = context.time,
                                               .onlyCustom = true};

@@ -17,6 +17,7 @@ class CustomShaders {
     graph::In<render::GpuScene> scene;
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
+    graph::In<render::Lightmaps> lightmaps;
     graph::In<render::DrawLists> drawLists;
     graph::In<gpu::Texture> depth;
     graph::InOut<gpu::Texture> color;

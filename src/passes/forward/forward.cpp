@@ -13,6 +13,7 @@ void Forward::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("scene", &Ports::scene).help("Geometry and materials.");
   d.read("view", &Ports::view).help("The view to draw from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("lightmaps", &Ports::lightmaps).optional().help("Baked light, which is added.");
   d.read("drawLists", &Ports::drawLists).help("What to draw: all but its transparent list.");
   d.write("depth", &Ports::depth)
       .texture(Format::Depth32F)
@@ -38,6 +39,7 @@ void Forward::execute(graph::PassContext& context, const Params& params, const P
   const render::ForwardShading::Inputs inputs{.scene = *ports.scene,
                                               .view = *ports.view,
                                               .lights = *ports.lights,
+                                              .lightmaps = ports.lightmaps.get(),
                                               .ambient = params.ambient,
                                               .time = context.time};
   for (const render::DrawList* list : ports.drawLists->solid())

@@ -16,6 +16,7 @@ class Forward {
     graph::In<render::GpuScene> scene;
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
+    graph::In<render::Lightmaps> lightmaps;
     graph::In<render::DrawLists> drawLists;
     graph::Out<gpu::Texture> depth, color;
   };

@@ -1,8 +1,31 @@
 #include "passes/gbuffer/gbuffer.hpp"
 
+#include <utility>
+
+#include "core/log.hpp"
+
 namespace lucerna::passes {
 
 using gpu::Format;
+
+namespace {
+
+// Half floats: baked light varies slowly, and six bits of mantissa would show in it as bands.
+void describeBakedLight(graph::PassInfo<GBuffer::Params, GBuffer::Ports>& d) {
+  using Ports = GBuffer::Ports;
+  d.param("baked", &GBuffer::Params::baked)
+      .rebuilds(graph::Rebuild::Ports)
+      .help("Draw baked light, too, into a target of its own.");
+  if (!d.values().baked) return;
+  d.read("lightmaps", &Ports::lightmaps).help("Baked light; without any the target is black.");
+  d.write("bakedIrradiance", &Ports::bakedIrradiance)
+      .texture(Format::Rgba16Float)
+      .sizeOfOutput()
+      .whenDisabled(vec4(0.f))
+      .help("Irradiance by baked light.");
+}
+
+}  // namespace
 
 void GBuffer::describe(graph::PassInfo<Params, Ports>& d) {
   d.pass("GBuffer", "Draws geometry and materials of all but translucent objects into targets.");
@@ -46,10 +69,23 @@ void GBuffer::describe(graph::PassInfo<Params, Ports>& d) {
       .sizeOfOutput()
       .whenDisabled(vec4(0.f))
       .help("Radiance that the surface sends out by itself.");
+  describeBakedLight(d);
+}
+
+bool GBuffer::bakes(gpu::Device& device, const Ports& ports) {
+  if (!ports.bakedIrradiance) return false;
+  if (render::bakesLight(*ports.scene, ports.lightmaps.get())) return true;
+  device.clear(*ports.bakedIrradiance, vec4(0.f));
+  if (!std::exchange(warned_, true))
+    log::warning(
+        "GBuffer: baked=true finds no baked light, so that there is none; --lightmap DIR brings "
+        "it, of a folder that `lucerna bake` made");
+  return false;
 }
 
 void GBuffer::execute(graph::PassContext& context, const Params& params, const Ports& ports) {
-  gpu::Rendering rendering = context.device.render({
+  const bool baked = bakes(context.device, ports);
+  gpu::Targets targets{
       .colors = {{ports.normal.get(), gpu::Load::Clear, vec4(0.5f)},
                  {ports.albedo.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)},
                  {ports.specular.get(), gpu::Load::Clear, vec4(0.f, 0.f, 0.f, 1.f)},
@@ -57,12 +93,17 @@ void GBuffer::execute(graph::PassContext& context, const Params& params, const P
                  {ports.emissive.get(), gpu::Load::Clear, vec4(0.f)}},
       .depth = {ports.depth.get(), gpu::Load::Clear},
       .viewport = ports.view->viewport,
-  });
+  };
+  if (baked) targets.colors.push_back({ports.bakedIrradiance.get(), gpu::Load::Clear, vec4(0.f)});
+  gpu::Rendering rendering = context.device.render(targets);
   const gpu::RenderState state{.depthTest = true,
                                .depthWrite = true,
                                .cull = params.backFaces ? gpu::Cull::None : gpu::Cull::Back};
   rendering.buffer("ViewBlock", ports.view->block);
-  const auto programOf = [&](const scene::Material& material) { return &programs_.of(material); };
+  if (baked) render::bindLightmaps(rendering, *ports.lightmaps);
+  const auto programOf = [&](const scene::Material& material) {
+    return &programs_.of(material, baked);
+  };
   for (const render::DrawList* list : ports.drawLists->solid())
     drawList(rendering, *ports.scene, *list, state, programOf);
 }

@@ -49,6 +49,7 @@ void Mirrors::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("scene", &Ports::scene).help("Geometry, materials and background.");
   d.read("view", &Ports::view).help("The view to draw from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("lightmaps", &Ports::lightmaps).optional().help("Baked light, which is added.");
   d.read("drawLists", &Ports::drawLists).help("Which mirrors are seen.");
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
@@ -133,6 +134,7 @@ void Mirrors::draw(Frame& frame, const Reflection& reflection, Buffers& buffers,
   const render::ForwardShading::Inputs inputs{.scene = *ports.scene,
                                               .view = buffers.view,
                                               .lights = *ports.lights,
+                                              .lightmaps = ports.lightmaps.get(),
                                               .ambient = frame.params.ambient,
                                               .time = frame.context.time};
   const gpu::Cull cull = frame.params.backFaces ? gpu::Cull::None : gpu::Cull::Back;

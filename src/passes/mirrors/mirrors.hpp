@@ -24,6 +24,7 @@ class Mirrors {
     graph::In<render::GpuScene> scene;
     graph::In<render::ViewData> view;
     graph::In<render::LightList> lights;
+    graph::In<render::Lightmaps> lightmaps;
     graph::In<render::DrawLists> drawLists;
     graph::In<gpu::Texture> depth;
     graph::InOut<gpu::Texture> color;

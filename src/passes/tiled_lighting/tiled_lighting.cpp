@@ -110,6 +110,9 @@ void TiledLighting::describe(graph::PassInfo<Params, Ports>& d) {
   read("ambientVisibility", &Ports::ambientVisibility, Format::R8Unorm,
        "Share of the ambient light that arrives.")
       .optional();
+  read("bakedIrradiance", &Ports::bakedIrradiance, Format::Rgba16Float,
+       "Baked light, which is added; no shadow and no occlusion darkens it.")
+      .optional();
   if (shadows) {
     d.read("scene", &Ports::scene).help("Whether there are custom shaders, whose pixels darken.");
     d.read("shadowMaps", &Ports::shadowMaps)
@@ -151,6 +154,7 @@ const gpu::Program& TiledLighting::programOf(const char* shader, const Params& p
   gpu::ProgramDesc desc{.vertex = "gpu/fullscreen.vert",
                         .fragment = fmt::format("passes/tiled_lighting/{}.frag", shader)};
   if (ports.ambientVisibility) desc.defines["AMBIENT_VISIBILITY"] = "1";
+  if (ports.bakedIrradiance) desc.defines["BAKED_LIGHT"] = "1";
   if (ports.tileLights) desc.defines["TILE_LIGHTS"] = "1";
   if (ports.shadowMaps) desc.defines["SHADOWS"] = "1";
   if (ports.shadowMaps && ports.shadowMaps->seesPanes()) desc.defines["SHADOW_TRANSMISSION"] = "1";
@@ -188,6 +192,8 @@ gpu::Rendering TiledLighting::begin(gpu::Device& device, const Params& params, c
   rendering.texture("emissive", *ports.emissive, gpu::kNearest);
   if (ports.ambientVisibility)
     rendering.texture("ambientVisibility", *ports.ambientVisibility, gpu::kNearest);
+  if (ports.bakedIrradiance)
+    rendering.texture("bakedIrradiance", *ports.bakedIrradiance, gpu::kNearest);
   if (ports.shadowMaps)
     render::bindShadowMaps(rendering, *ports.shadowMaps, params.comparison == Comparison::Filtered);
   if (hasMoments(ports)) render::bindPrefilteredShadows(rendering, *ports.prefilteredShadows);

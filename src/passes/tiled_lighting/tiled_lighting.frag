@@ -1,10 +1,11 @@
 // Shades one pixel of the G-buffer.
-//   AMBIENT_VISIBILITY  see render/read_gbuffer.glsl
+//   AMBIENT_VISIBILITY, BAKED_LIGHT  see render/read_gbuffer.glsl
 //   TILE_LIGHTS         see render/tile_lights.glsl
 //   SHADOWS             shadow maps say how much of each light arrives
 //   SHADOW_FILTER, PLANE_COMPARISON, SHADOW_TRANSMISSION  see render/shadows.glsl
 //   PREFILTERED_SHADOWS, LAYERED_SHADOWS, LAYERED_TRANSMITTANCE  see visibility.glsl
 // variant: AMBIENT_VISIBILITY=1
+// variant: BAKED_LIGHT=1
 // variant: TILE_LIGHTS=1
 // variant: SHADOWS=1
 // variant: SHADOWS=1 SHADOW_FILTER=1

@@ -40,7 +40,8 @@ class TiledLighting {
     graph::In<render::LayeredShadows> layeredShadows;
     graph::In<render::LayeredTransmittance> layeredTransmittance;
     graph::In<gpu::Texture> shadowMask;
-    graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive, ambientVisibility;
+    graph::In<gpu::Texture> depth, normal, albedo, specular, material, emissive, ambientVisibility,
+        bakedIrradiance;
     graph::InOut<gpu::Texture> color;
   };
 

@@ -14,6 +14,7 @@ void Transparency::describe(graph::PassInfo<Params, Ports>& d) {
   d.read("scene", &Ports::scene).help("Geometry and materials.");
   d.read("view", &Ports::view).help("The view to draw from.");
   d.read("lights", &Ports::lights).help("Lights that are on, and the ambient light.");
+  d.read("lightmaps", &Ports::lightmaps).optional().help("Baked light, which is added.");
   d.read("drawLists", &Ports::drawLists).help("What to draw: its transparent list, in its order.");
   d.read("depth", &Ports::depth)
       .texture(Format::Depth32F)
@@ -37,6 +38,7 @@ void Transparency::execute(graph::PassContext& context, const Params& params, co
                 {.scene = *ports.scene,
                  .view = *ports.view,
                  .lights = *ports.lights,
+                 .lightmaps = ports.lightmaps.get(),
                  .ambient = params.ambient,
                  .time = context.time},
                 list, state);

@@ -1,0 +1,78 @@
+#include "app/baked_light.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "core/text.hpp"
+#include "lightmap/place.hpp"
+#include "lightmap/switching.hpp"
+
+namespace lucerna::app {
+namespace {
+
+std::vector<std::string> groupsOf(const lightmap::Manifest& manifest) {
+  std::set<std::string> groups;
+  for (const lightmap::PatchEntry& patch : manifest.patches) groups.insert(patch.group);
+  return {groups.begin(), groups.end()};
+}
+
+bool isAmong(const std::vector<std::string>& names, const std::string& name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+Status checkGroups(const lightmap::Manifest& manifest, const std::vector<std::string>& wanted) {
+  const std::vector<std::string> groups = groupsOf(manifest);
+  for (const std::string& group : wanted)
+    if (!isAmong(groups, group))
+      return error(
+          ErrorKind::Usage, "--lights-off: '{}' is no group of lights in this lightmap{}; {}",
+          group, didYouMean(group, groups),
+          groups.empty() ? "it has none that could be switched" : "wanted one of " + join(groups));
+  return {};
+}
+
+Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene) {
+  LUCERNA_TRY_VOID(lightmap::checkFits(lightmap.layout, scene));
+  for (const lightmap::LightEntry& light : lightmap.manifest.lights)
+    if (light.light >= scene.lights.size())
+      return error(ErrorKind::Input,
+                   "the lightmap knows light {}, '{}', and '{}' has {} lights; bake it again",
+                   light.light, light.name, scene.name, scene.lights.size());
+  // The baker's hash of the scene is compared with manifest.sceneHash here.
+  return {};
+}
+
+// Their ambient light is in no map.
+void switchOffBakedLights(scene::Scene& scene, const lightmap::Manifest& manifest,
+                          const std::vector<std::string>& lightsOff) {
+  for (const lightmap::LightEntry& entry : manifest.lights) {
+    scene::Light& light = scene.lights[entry.light];
+    if (light.on && !isAmong(lightsOff, entry.group))
+      scene.ambient += scene::place(light, mat4(1.f)).ambient;
+    light.on = false;
+  }
+}
+
+}  // namespace
+
+Result<std::vector<Image>> mapsWith(const lightmap::Lightmap& lightmap,
+                                    const std::vector<std::string>& lightsOff) {
+  LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, lightsOff));
+  LUCERNA_TRY(maps, lightmap::SwitchedMaps::create(lightmap.maps, lightmap.patches));
+  for (std::size_t i = 0; i < lightmap.patches.size(); ++i)
+    if (const lightmap::Patch& patch = lightmap.patches[i]; !isAmong(lightsOff, patch.group))
+      LUCERNA_TRY_VOID(maps.set(i, patch.color));
+  maps.update();
+  return maps.maps();
+}
+
+Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSettings& settings) {
+  LUCERNA_TRY(lightmap, lightmap::readLightmap(settings.lightmap));
+  LUCERNA_TRY_VOID(checkScene(lightmap, scene));
+  LUCERNA_TRY(maps, mapsWith(lightmap, settings.lightsOff));
+  lightmap::placeInMaps(scene, lightmap.layout);
+  switchOffBakedLights(scene, lightmap.manifest, settings.lightsOff);
+  return maps;
+}
+
+}  // namespace lucerna::app
