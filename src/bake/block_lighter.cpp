@@ -367,32 +367,28 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
 }
 
-void BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
-                         std::span<vec3> texels) {
+bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
+                         std::vector<vec3>& texels) {
+  found_.clear();
+  if (emitters && !emitters_.nodes.empty()) findNodes(samples);
+  const auto first = std::ranges::find_if(
+      lights, [&](const PlacedLight& light) { return mayLight(samples, light); });
+  if (first == lights.end() && found_.empty()) return false;
   sums_.assign(samples.size(), vec3(0.f));
+  for (const PlacedLight& light : lights.subspan(static_cast<std::size_t>(first - lights.begin())))
+    if (mayLight(samples, light)) lightBy(samples, light);
   lit_.clear();
-  values_.clear();
   rays_.resize(0);
-  bool any = false;
-  for (const PlacedLight& light : lights)
-    if (mayLight(samples, light)) {
-      lightBy(samples, light);
-      any = true;
-    }
-  if (emitters && !emitters_.nodes.empty()) {
-    lit_.clear();
-    rays_.resize(0);
-    findNodes(samples);
+  if (!found_.empty())
     for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
-    any = true;
-  }
-  if (!any) return;
+  texels.assign(samples.texelCount, vec3(0.f));
   for (std::size_t i = 0; i < samples.size();) {
-    const std::size_t first = i;
+    const std::size_t begin = i;
     vec3 sum(0.f);
-    for (; i < samples.size() && samples.texels[i] == samples.texels[first]; ++i) sum += sums_[i];
-    texels[samples.texels[first]] += sum / static_cast<float>(i - first);
+    for (; i < samples.size() && samples.texels[i] == samples.texels[begin]; ++i) sum += sums_[i];
+    texels[samples.texels[begin]] = sum / static_cast<float>(i - begin);
   }
+  return true;
 }
 
 }  // namespace lucerna::bake

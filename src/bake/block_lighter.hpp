@@ -44,10 +44,10 @@ class BlockLighter {
   BlockLighter(const ShadowTracer& tracer, const Occluders& occluders, const Emitters& emitters,
                const LighterSettings& settings, const scene::Scene& scene);
 
-  // Adds the mean irradiance (scene/light.hpp) to each texel of the block: row by row. Of emitting
-  // surfaces only if `emitters` is set.
-  void light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::span<vec3> texels);
+  // The mean irradiance (scene/light.hpp) of each texel of the block, row by row; of emitting
+  // surfaces only if `emitters` is set. False, and nothing is written: nothing reaches the block.
+  bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
+             std::vector<vec3>& texels);
 
   LightCounters counters;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "bake/shadow_tracer.hpp"
 #include "core/check.hpp"
@@ -46,7 +47,9 @@ void filter(const RTCFilterFunctionNArguments* args) {
 class EmbreeTracer final : public ShadowTracer {
  public:
   explicit EmbreeTracer(const World& world)
-      : world_(world), lookup_(*world.scene, mat4(1.f)), device_(rtcNewDevice(nullptr)) {
+      : world_(world),
+        lookup_(*world.scene, mat4(1.f)),
+        device_(rtcNewDevice((std::string("isa=") + rayInstructionSet()).c_str())) {
     CHECK(device_, "Embree makes no device (error {})",
           static_cast<int>(rtcGetDeviceError(nullptr)));
     scene_ = rtcNewScene(device_);
@@ -75,6 +78,9 @@ class EmbreeTracer final : public ShadowTracer {
     rtcInitIntersectContext(&context.embree);
     alignas(64) RTCRay16 packet;
     alignas(64) std::array<int, kPacket> valid;
+    // For lanes without a ray as well: Embree 3.13.5 asks the filter about some of them.
+    std::array<vec3, kPacket> through;
+    context.shares = through.data();
     for (unsigned i = 0; i < kPacket; ++i) {
       packet.tnear[i] = kClearOfLight;
       packet.time[i] = 0.f;
@@ -85,11 +91,10 @@ class EmbreeTracer final : public ShadowTracer {
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
       const std::size_t count = std::min(kPacket, rays.size() - first);
       setRays(packet, valid, rays, first, count);
-      context.shares = &shares[first];
-      std::fill_n(context.shares, count, vec3(1.f));
+      through.fill(vec3(1.f));
       rtcOccluded16(valid.data(), scene_, &context.embree, &packet);
-      for (std::size_t i = 0; i < count; ++i)
-        if (packet.tfar[i] < 0.f) shares[first + i] = vec3(0.f);  // Embree's mark
+      for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
+        shares[first + i] = packet.tfar[i] < 0.f ? vec3(0.f) : through[i];
     }
   }
 
@@ -137,6 +142,10 @@ class EmbreeTracer final : public ShadowTracer {
 };
 
 }  // namespace
+
+const char* rayInstructionSet() {
+  return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2";
+}
 
 std::unique_ptr<ShadowTracer> makeEmbreeTracer(const World& world) {
   return std::make_unique<EmbreeTracer>(world);

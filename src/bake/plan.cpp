@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "bake/plan_hash.hpp"
 #include "core/text.hpp"
@@ -91,6 +92,9 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   plan.units = shareOut(plan.blocks);
   plan.groups = groupLights(scene, settings.reach);
   LUCERNA_TRY_VOID(choose(plan));
+  if (plan.alwaysOn)
+    std::ranges::copy(skyLights(settings.sky, settings.skyDirections),
+                      std::back_inserter(plan.groups[0].lights));
   plan.hash = hashOf(plan);
   addWarnings(plan);
   return plan;

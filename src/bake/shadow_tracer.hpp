@@ -38,6 +38,10 @@ class ShadowTracer {
   virtual void trace(const ShadowRays& rays, std::span<vec3> shares) const = 0;
 };
 
+// What Embree follows rays with, so that processors that know more give the same bits: "avx2", or
+// "sse4.2" on those that do not have it.
+const char* rayInstructionSet();
+
 // By Embree, in packets of sixteen. The world outlives it, and so below.
 std::unique_ptr<ShadowTracer> makeEmbreeTracer(const World& world);
 

@@ -84,7 +84,7 @@ LightScene::LightScene(const Plan& plan)
     : tracer(makeTracer(plan)),
       occluders(plan.world),
       emitters(emittersOf(plan)),
-      rays(*plan.world.scene, mat4(1.f)),
+      rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
       chartOf(chartsOfTriangles(plan)),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
 

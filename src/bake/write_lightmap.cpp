@@ -11,6 +11,7 @@
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "image/image_file.hpp"
+#include "image/ktx2.hpp"
 #include "lightmap/manifest.hpp"
 
 namespace lucerna::bake {
@@ -37,24 +38,59 @@ vec3 largestOf(const Image& map) {
   return largest;
 }
 
-Result<lightmap::MapEntry> writeMap(const BakedLight& baked, std::size_t index,
+// What viewers show: sRGB of a white surface at the scene's exposure.
+Image pictureOf(const Image& map, float white) {
+  Image picture(map.width(), map.height(), 3, ComponentType::U8);
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x)
+      for (int c = 0; c < 3; ++c)
+        picture.pixel<std::uint8_t>(x, y)[c] = static_cast<std::uint8_t>(
+            255.f * srgbFromLinear(floatFromHalf(map.pixel<std::uint16_t>(x, y)[c]) / white) +
+            0.5f);
+  return picture;
+}
+
+Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding encoding,
+                               const fs::path& folder, float white) {
+  switch (encoding) {
+    case Encoding::Rgb9e5:
+      return write(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
+                   encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
+    case Encoding::Bc6h:
+      return write(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
+                   encodeKtx2({&map, 1}, HdrFormat::Bc6h));
+    case Encoding::Png:
+      break;
+  }
+  const std::string name = fmt::format("map-{:03}.png", index);
+  LUCERNA_TRY(bytes, encodeImage(folder / name, pictureOf(map, white)));
+  return write(folder, name, bytes);
+}
+
+Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, std::size_t index,
                                     const fs::path& folder) {
   const std::string name = fmt::format("map-{:03}.exr", index);
   LUCERNA_TRY(bytes, encodeImage(folder / name, baked.maps[index]));
   lightmap::MapEntry entry;
   LUCERNA_TRY(master, write(folder, name, bytes));
   entry.master = std::move(master);
+  for (const Encoding encoding : plan.settings.encodings) {
+    LUCERNA_TRY(encoded, writeEncoded(baked.maps[index], index, encoding, folder,
+                                      irradianceOfWhite(*plan.world.scene)));
+    entry.encoded.push_back(std::move(encoded));
+  }
   entry.largest = largestOf(baked.maps[index]);
   entry.texels = static_cast<std::uint64_t>(std::ranges::count(baked.texels.touched[index], true));
   return entry;
 }
 
-Status writeMaps(const BakedLight& baked, const fs::path& folder, Manifest& manifest) {
+Status writeMaps(const Plan& plan, const BakedLight& baked, const fs::path& folder,
+                 Manifest& manifest) {
   std::vector<std::optional<Result<lightmap::MapEntry>>> entries(baked.maps.size());
   Progress progress("writing maps", baked.maps.size());
   parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      entries[i] = writeMap(baked, i, folder);
+      entries[i] = writeMap(plan, baked, i, folder);
       progress.advance();
     }
   });
@@ -129,6 +165,7 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   const scene::Scene& scene = *plan.world.scene;
   manifest.scene = scene.name;
   manifest.sceneHash = lightmap::hashText16(plan.hash);
+  manifest.processor = rayInstructionSet();
   manifest.side = plan.settings.pack.side;
   manifest.density = plan.settings.density;
   for (const WorldObject& object : plan.world.objects)
@@ -145,8 +182,9 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   for (lightmap::ObjectEntry& object : manifest.objects) std::ranges::sort(object.maps);
   for (const LightGroup& group : plan.groups)
     for (const scene::PlacedLight& light : group.lights)
-      manifest.lights.push_back(
-          {.name = scene.lights[light.light].name, .group = group.name, .light = light.light});
+      if (light.light != scene::kNone)
+        manifest.lights.push_back(
+            {.name = scene.lights[light.light].name, .group = group.name, .light = light.light});
 }
 
 std::set<std::string> namesIn(const Manifest& manifest) {
@@ -185,7 +223,7 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   const lightmap::Layout layout = layoutOf(plan);
   LUCERNA_TRY(entry, write(folder, "layout.bin", lightmap::toBytes(layout)));
   manifest.layout = std::move(entry);
-  LUCERNA_TRY_VOID(writeMaps(baked, folder, manifest));
+  LUCERNA_TRY_VOID(writeMaps(plan, baked, folder, manifest));
   LUCERNA_TRY_VOID(writePatches(plan, baked, folder, manifest));
   LUCERNA_TRY_VOID(writeGltf(plan, baked, layout, folder, manifest.gltf));
   texels = 0;

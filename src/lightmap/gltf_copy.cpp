@@ -1,7 +1,5 @@
 #include "lightmap/gltf_copy.hpp"
 
-#include <algorithm>
-
 #include "core/check.hpp"
 #include "lightmap/place.hpp"
 
@@ -10,10 +8,13 @@ namespace {
 
 // The headlight goes too: it is the viewer's.
 void keepUnbaked(scene::Scene& scene, std::span<const std::uint32_t> baked) {
+  std::vector<bool> goes(scene.lights.size(), false);
+  for (const std::uint32_t light : baked)
+    if (light < goes.size()) goes[light] = true;
+  if (scene.headlight != scene::kNone) goes[scene.headlight] = true;
   std::vector<scene::Light> kept;
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-    if (i != scene.headlight && std::ranges::find(baked, i) == baked.end())
-      kept.push_back(std::move(scene.lights[i]));
+  for (std::size_t i = 0; i < goes.size(); ++i)
+    if (!goes[i]) kept.push_back(std::move(scene.lights[i]));
   scene.lights = std::move(kept);
   scene.headlight = scene::kNone;
 }

@@ -16,8 +16,8 @@ struct GltfCopy {
 };
 
 // Writes scene.gltf with each object where the layout has it. maps: one for each of the layout's.
-// baked: indices in Scene::lights; such a light is in the maps and would else be seen twice, so its
-// node stays without it. The layout must fit the scene.
+// baked: indices in Scene::lights (others, as of a sky's lights, mean none); such a light is in the
+// maps and would else be seen twice, so its node stays without it. The layout must fit the scene.
 Result<GltfCopy> writeGltfCopy(scene::Scene scene, const Layout& layout,
                                std::vector<scene::GltfLightmap> maps,
                                std::span<const std::uint32_t> baked,
