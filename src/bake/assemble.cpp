@@ -1,6 +1,8 @@
 #include "bake/assemble.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <span>
 #include <tuple>
 
 #include "core/parallel.hpp"
@@ -17,49 +19,50 @@ Rgb halves(vec3 v) {
   return {halfFromFloat(v.x), halfFromFloat(v.y), halfFromFloat(v.z)};
 }
 
-constexpr std::array<ivec2, 8> kAround{ivec2(-1, -1), ivec2(0, -1), ivec2(1, -1), ivec2(-1, 0),
-                                       ivec2(1, 0),   ivec2(-1, 1), ivec2(0, 1),  ivec2(1, 1)};
+// Those that share a side first.
+constexpr std::array<ivec2, 8> kAround{ivec2(0, -1),  ivec2(-1, 0), ivec2(1, 0),  ivec2(0, 1),
+                                       ivec2(-1, -1), ivec2(1, -1), ivec2(-1, 1), ivec2(1, 1)};
+constexpr std::size_t kSides = 4;
 
-// How many texels around this one the scene touches.
-int touchedAround(const MapTexels& texels, int map, ivec2 p) {
-  return static_cast<int>(
-      std::ranges::count_if(kAround, [&](ivec2 step) { return texels.has(map, p + step); }));
-}
-
-// The mean or, of hidden texels, the darkest of `count` colours.
-class Filling {
+// The texels whose light one is filled with that the scene does not touch: those beside it, or else
+// those at its corners, so that what ends at a chart's side goes on straight. Of hidden texels all.
+class Donors {
  public:
-  explicit Filling(bool darkest) : darkest_(darkest) {}
-  void add(vec3 color) {
-    sum_ += color;
-    least_ = count_ == 0 ? color : glm::min(least_, color);
-    ++count_;
+  Donors(const MapTexels& texels, int map, ivec2 p) : hidden_(texels.isHidden(map, p)) {
+    for (std::size_t i = 0; i < kAround.size(); ++i) {
+      if (i == kSides && count_ > 0 && !hidden_) break;
+      if (texels.has(map, p + kAround[i])) steps_[count_++] = kAround[i];
+    }
   }
-  // count: of all texels around, those that were not added being black.
-  vec3 of(int count) const {
-    if (darkest_) return count_ < count ? vec3(0.f) : least_;
-    return sum_ / static_cast<float>(count);
+  std::span<const ivec2> steps() const { return {steps_.data(), count_}; }
+
+  // The mean of what `colorAt` says of them or, of hidden texels, the darkest.
+  template <typename ColorAt>
+  vec3 light(const ColorAt& colorAt) const {
+    vec3 sum(0.f), least(std::numeric_limits<float>::infinity());
+    for (const ivec2 step : steps()) {
+      const vec3 color = colorAt(step);
+      sum += color;
+      least = glm::min(least, color);
+    }
+    return hidden_ ? least : sum / static_cast<float>(count_);
   }
-  int count() const { return count_; }
 
  private:
-  bool darkest_;
-  vec3 sum_{0.f}, least_{0.f};
-  int count_ = 0;
+  bool hidden_;
+  std::array<ivec2, 8> steps_{};
+  std::size_t count_ = 0;
 };
 
 void dilateMap(Image& image, const MapTexels& texels, int map) {
-  const int side = texels.side;
-  for (int y = 0; y < side; ++y)
-    for (int x = 0; x < side; ++x) {
+  for (int y = 0; y < texels.side; ++y)
+    for (int x = 0; x < texels.side; ++x) {
       if (texels.has(map, {x, y})) continue;
-      Filling filling(texels.isHidden(map, {x, y}));
-      for (const ivec2 step : kAround) {
-        const ivec2 p = ivec2(x, y) + step;
-        if (texels.has(map, p)) filling.add(colorOf(image.pixel<std::uint16_t>(p.x, p.y)));
-      }
-      if (filling.count() > 0)
-        std::ranges::copy(halves(filling.of(filling.count())), image.pixel<std::uint16_t>(x, y));
+      const Donors donors(texels, map, {x, y});
+      if (donors.steps().empty()) continue;
+      const vec3 light = donors.light(
+          [&](ivec2 step) { return colorOf(image.pixel<std::uint16_t>(x + step.x, y + step.y)); });
+      std::ranges::copy(halves(light), image.pixel<std::uint16_t>(x, y));
     }
 }
 
@@ -67,40 +70,42 @@ auto orderOf(const LitTexel& t) {
   return std::tuple(t.map, t.y, t.x);
 }
 
-// The light of one group spreads into the same texels with the same shares.
-void dilateGroup(std::vector<LitTexel>& lit, const MapTexels& texels) {
-  struct Share {
-    LitTexel at;
-    vec3 value;
-  };
-  std::vector<Share> shares;
+LitTexel moved(const LitTexel& t, ivec2 step) {
+  return {.map = t.map,
+          .x = static_cast<std::uint16_t>(t.x + step.x),
+          .y = static_cast<std::uint16_t>(t.y + step.y)};
+}
+
+// The texels beside lit ones that the scene does not touch, each once, dark.
+std::vector<LitTexel> unlitBeside(const std::vector<LitTexel>& lit, const MapTexels& texels) {
+  std::vector<LitTexel> found;
   for (const LitTexel& from : lit)
     for (const ivec2 step : kAround) {
       const ivec2 p = ivec2(from.x, from.y) + step;
-      if (p.x < 0 || p.y < 0 || p.x >= texels.side || p.y >= texels.side) continue;
-      if (texels.has(from.map, p)) continue;
-      shares.push_back({{.map = from.map,
-                         .x = static_cast<std::uint16_t>(p.x),
-                         .y = static_cast<std::uint16_t>(p.y)},
-                        colorOf(from.rgb.data())});
+      const bool within = p.x >= 0 && p.y >= 0 && p.x < texels.side && p.y < texels.side;
+      if (within && !texels.has(from.map, p)) found.push_back(moved(from, step));
     }
-  std::ranges::stable_sort(shares, {}, [](const Share& s) { return orderOf(s.at); });
-  for (std::size_t i = 0; i < shares.size();) {
-    LitTexel texel = shares[i].at;
-    Filling filling(texels.isHidden(texel.map, {texel.x, texel.y}));
-    for (const auto order = orderOf(texel); i < shares.size() && orderOf(shares[i].at) == order;
-         ++i)
-      filling.add(shares[i].value);
-    const int count = touchedAround(texels, texel.map, {texel.x, texel.y});
-    texel.rgb = halves(filling.of(count));
-    if (texel.rgb != Rgb{}) lit.push_back(texel);
-  }
-  std::ranges::sort(lit, {}, orderOf);
+  std::ranges::sort(found, {}, orderOf);
+  const auto again = std::ranges::unique(found, {}, orderOf);
+  found.erase(again.begin(), again.end());
+  return found;
 }
 
-}  // namespace
-
-namespace {
+// The light of one group spreads into the same texels by the same rule.
+void dilateGroup(std::vector<LitTexel>& lit, const MapTexels& texels) {
+  std::ranges::sort(lit, {}, orderOf);
+  std::vector<LitTexel> filled = unlitBeside(lit, texels);
+  for (LitTexel& texel : filled)
+    texel.rgb = halves(Donors(texels, texel.map, {texel.x, texel.y}).light([&](ivec2 step) {
+      const LitTexel wanted = moved(texel, step);
+      const auto at = std::ranges::lower_bound(lit, orderOf(wanted), {}, orderOf);
+      return at != lit.end() && orderOf(*at) == orderOf(wanted) ? colorOf(at->rgb.data())
+                                                                : vec3(0.f);
+    }));
+  std::erase_if(filled, [](const LitTexel& t) { return t.rgb == Rgb{}; });
+  lit.insert(lit.end(), filled.begin(), filled.end());
+  std::ranges::sort(lit, {}, orderOf);
+}
 
 // Whether the texel is one that the chart was packed by. What it touches by less may be another's.
 bool isOf(const Plan& plan, std::uint32_t chart, ivec2 texel) {
@@ -112,7 +117,8 @@ bool isOf(const Plan& plan, std::uint32_t chart, ivec2 texel) {
 }  // namespace
 
 bool MapTexels::isBeside(int map, ivec2 p) const {
-  return !has(map, p) && touchedAround(*this, map, p) > 0;
+  return !has(map, p) &&
+         std::ranges::any_of(kAround, [&](ivec2 step) { return has(map, p + step); });
 }
 
 BakedLight emptyLight(const Plan& plan) {

@@ -89,22 +89,27 @@ void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> w
   }
 }
 
-// Of each texel of the tile the samples that are left and do not see the first of them.
+// Of each texel of the tile: what is left and does not see the one of them next to the middle.
 void HiddenSamples::separate(const Samples& samples, const Tile& tile) {
   which_.clear();
   asked_.clear();
   for (std::uint32_t i = tile.first; i < tile.first + tile.count;) {
-    std::uint32_t first = scene::kNone;
-    const std::uint16_t texel = samples.texels[i];
-    for (; i < tile.first + tile.count && samples.texels[i] == texel; ++i) {
-      if (hidden_[i]) continue;
-      if (first == scene::kNone) {
-        first = i;
-        continue;
-      }
-      which_.push_back(i);
-      const vec3 from = positionAt(samples, first);
-      asked_.push_back({.originW = from, .directionW = positionAt(samples, i) - from, .far = 1.f});
+    const std::uint32_t first = i;
+    vec3 middle(0.f);
+    for (; i < tile.first + tile.count && samples.texels[i] == samples.texels[first]; ++i)
+      middle += positionAt(samples, i);
+    middle /= static_cast<float>(i - first);
+    std::uint32_t nearest = scene::kNone;
+    const auto distance = [&](std::uint32_t k) {
+      return glm::distance(positionAt(samples, k), middle);
+    };
+    for (std::uint32_t k = first; k < i; ++k)
+      if (!hidden_[k] && (nearest == scene::kNone || distance(k) < distance(nearest))) nearest = k;
+    for (std::uint32_t k = first; k < i; ++k) {
+      if (hidden_[k] || k == nearest) continue;
+      const vec3 from = positionAt(samples, nearest);
+      which_.push_back(k);
+      asked_.push_back({.originW = from, .directionW = positionAt(samples, k) - from, .far = 1.f});
     }
   }
   if (which_.empty()) return;

@@ -20,7 +20,7 @@ class HiddenSamples {
 
   // Takes out the samples that are inside of a solid: around them, all that rays meet first are
   // the backs of opaque one-sided surfaces. Of a texel that something cuts in two those are left
-  // that see its first one.
+  // that see the one next to its middle.
   void remove(Samples& samples, std::uint32_t chart);
 
  private:

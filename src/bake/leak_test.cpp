@@ -1,0 +1,215 @@
+// The dark side stays dark: rooms, walls and boxes that no light enters, on maps as they are
+// stored.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bake/assemble.hpp"
+#include "bake/hidden.hpp"
+#include "bake/unit_light.hpp"
+#include "image/bc6h.hpp"
+#include "image/rgb9e5.hpp"
+#include "trace/trace_scenes.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+using trace::testing::addLight;
+using trace::testing::addMaterial;
+using trace::testing::addSquare;
+using trace::testing::emptyScene;
+
+// A texel's brightness as a white surface shows it.
+constexpr float kLeak = 1.f / 255.f;
+constexpr float kStep = 0.25f;  // m, a texel
+
+// One-sided, its front outwards, or inwards for a room. Not on the texels' grid.
+void addBox(scene::Scene& scene, vec3 low, vec3 high, bool inwards = false) {
+  const vec3 centre = 0.5f * (low + high), half = 0.5f * (high - low);
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.f, 1.f}) {
+      vec3 n(0.f), a(0.f), b(0.f);
+      n[axis] = side * half[axis];
+      a[(axis + 1) % 3] = half[(axis + 1) % 3];
+      b[(axis + 2) % 3] = half[(axis + 2) % 3] * side * (inwards ? -1.f : 1.f);
+      addSquare(scene, centre + n, a, b);
+    }
+}
+
+scene::Scene scene() {
+  scene::Scene made = emptyScene();
+  addMaterial(made).doubleSided = false;
+  return made;
+}
+
+scene::Light& addLamp(scene::Scene& scene, vec3 at) {
+  scene::Light& lamp = addLight(scene, scene::LightKind::Point, at, {0, -1, 0});
+  lamp.intensity = 40.f;
+  return lamp;
+}
+
+// What the maps show at a place of the surface, filtered as the renderer does; and where it lies.
+struct Shown {
+  vec3 positionW, normalW;
+  float brightness = 0.f;
+};
+
+std::vector<Image> encodings(const Image& map) {
+  Image rgb9e5(map.width(), map.height(), 3, ComponentType::F32);
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x) {
+      const std::uint16_t* p = map.pixel<std::uint16_t>(x, y);
+      const vec3 c =
+          fromRgb9e5(toRgb9e5({floatFromHalf(p[0]), floatFromHalf(p[1]), floatFromHalf(p[2])}));
+      for (int i = 0; i < 3; ++i) rgb9e5.pixel<float>(x, y)[i] = c[i];
+    }
+  return {converted(map, ComponentType::F32, 3), rgb9e5,
+          decodeBc6h(encodeBc6h(map), map.width(), map.height())};
+}
+
+vec3 lookup(const Image& map, vec2 p) {
+  const vec2 at = glm::clamp(p - 0.5f, vec2(0.f), vec2(map.width(), map.height()) - 1.f);
+  const ivec2 first = glm::min(ivec2(at), ivec2(map.width(), map.height()) - 2);
+  const vec2 share = at - vec2(first);
+  const auto texel = [&](int x, int y) {
+    const float* c = map.pixel<float>(first.x + x, first.y + y);
+    return vec3(c[0], c[1], c[2]);
+  };
+  return glm::mix(glm::mix(texel(0, 0), texel(1, 0), share.x),
+                  glm::mix(texel(0, 1), texel(1, 1), share.x), share.y);
+}
+
+// Looks everywhere: at a fine grid of places on every triangle, in every encoding the largest.
+std::vector<Shown> bake(const scene::Scene& scene, int positions) {
+  BakeSettings settings;
+  settings.density = 1.f / kStep;
+  settings.pack.side = 256;
+  settings.sampling.positions = positions;
+  Result<Plan> made = makePlan(scene, settings);
+  EXPECT_TRUE(made) << made.error().message;
+  const Plan& plan = *made;
+  const LightScene lightScene(plan);
+  UnitLighter lighter(plan, lightScene);
+  BakedLight baked = emptyLight(plan);
+  for (const Unit& unit : plan.units) place(baked, plan, unit, lighter.light(unit));
+  dilate(baked);
+  std::vector<std::vector<Image>> maps;
+  for (const Image& map : baked.maps) maps.push_back(encodings(map));
+  const lightmap::Layout layout = layoutOf(plan);
+  std::vector<Shown> shown;
+  for (std::size_t o = 0; o < plan.world.objects.size(); ++o) {
+    const WorldObject& object = plan.world.objects[o];
+    for (std::uint32_t t = 0; t < object.triangleCount; ++t) {
+      const lightmap::TrianglePlace& place = layout.objects[object.object][t];
+      const std::uint32_t* corners = &plan.world.indices[3 * (object.firstTriangle + t)];
+      constexpr int kGrid = 61;
+      for (int i = 0; i <= kGrid; ++i)
+        for (int j = 0; i + j <= kGrid; ++j) {
+          const float u = static_cast<float>(i) / kGrid, v = static_cast<float>(j) / kGrid;
+          const auto at = [&](const auto& a, const auto& b, const auto& c) {
+            return a * (1.f - u - v) + b * u + c * v;
+          };
+          Shown s;
+          s.positionW = at(plan.world.positions[corners[0]], plan.world.positions[corners[1]],
+                           plan.world.positions[corners[2]]);
+          s.normalW = plan.world.normals[corners[0]];
+          const vec2 p = at(place.corners[0], place.corners[1], place.corners[2]);
+          for (const Image& map : maps[static_cast<std::size_t>(place.map)]) {
+            const vec3 c = lookup(map, p) / kPi;
+            s.brightness = std::max({s.brightness, c.x, c.y, c.z});
+          }
+          shown.push_back(s);
+        }
+    }
+  }
+  return shown;
+}
+
+// The brightest of the places that `dark` says no light reaches, and the brightest of all.
+struct Brightest {
+  float dark = 0.f, all = 0.f;
+};
+template <typename Dark>
+Brightest brightest(const std::vector<Shown>& shown, const Dark& dark) {
+  Brightest result;
+  for (const Shown& s : shown) {
+    result.all = std::max(result.all, s.brightness);
+    if (dark(s)) result.dark = std::max(result.dark, s.brightness);
+  }
+  return result;
+}
+
+class Leaks : public ::testing::TestWithParam<int> {};  // positions along a texel's side
+
+// A floor that goes on below the walls of a closed room with a lamp in it; walls as thick as two
+// texels.
+TEST_P(Leaks, AClosedRoomKeepsItsLight) {
+  scene::Scene s = scene();
+  addSquare(s, {0, 0, 0}, {0, 0, 5}, {5, 0, 0});
+  addBox(s, {-1.63f, -0.2f, -1.71f}, {1.57f, 2.33f, 1.69f});        // outside
+  addBox(s, {-1.13f, -0.1f, -1.21f}, {1.07f, 1.83f, 1.19f}, true);  // inside
+  addLamp(s, {0.1f, 1.2f, 0.2f});
+  const Brightest found = brightest(bake(s, GetParam()), [](const Shown& p) {
+    return std::abs(p.positionW.x) > 1.6f || std::abs(p.positionW.z) > 1.65f ||
+           p.positionW.y > 1.9f;
+  });
+  EXPECT_GT(found.all, 1.f);
+  EXPECT_LE(found.dark, kLeak);
+}
+
+// A wall thinner than a texel, and a lamp on one side of it: the floor below goes through. The
+// texel that the wall divides belongs to the side on which its middle is, so that light filters
+// through up to there and no farther.
+TEST_P(Leaks, AThinWall) {
+  scene::Scene s = scene();
+  addSquare(s, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
+  addBox(s, {0.31f, -0.5f, -4.5f}, {0.36f, 8.f, 4.5f});
+  addLamp(s, {-1.f, 1.f, 0.f});
+  const Brightest found = brightest(bake(s, GetParam()), [](const Shown& p) {
+    return p.positionW.x > 0.375f && p.positionW.y >= 0.f;
+  });
+  EXPECT_GT(found.all, 1.f);
+  EXPECT_LE(found.dark, kLeak);
+}
+
+// Two rooms in one corner, divided by a wall; the lamp is in the other.
+TEST_P(Leaks, ALampBehindAWall) {
+  scene::Scene s = scene();
+  addBox(s, {-3, 0, -3}, {3, 3, 3}, true);
+  addBox(s, {-0.52f, -0.5f, -3.5f}, {0.18f, 3.5f, 3.5f});
+  addLamp(s, {-1.5f, 1.5f, 0.f});
+  const Brightest found =
+      brightest(bake(s, GetParam()), [](const Shown& p) { return p.positionW.x > 0.185f; });
+  EXPECT_GT(found.all, 1.f);
+  EXPECT_LE(found.dark, kLeak);
+}
+
+// Boxes that go through each other on a floor: what lies inside of either is dark and does not
+// darken what is seen of the other. Every place outside gets what the lamp gives it or a shadow.
+TEST_P(Leaks, BoxesThatIntersectHaveNoDarkEdges) {
+  scene::Scene s = scene();
+  addSquare(s, {0, 0, 0}, {0, 0, 5}, {5, 0, 0});
+  addBox(s, {-1.07f, -0.3f, -1.1f}, {0.93f, 1.04f, 0.87f});
+  addBox(s, {-0.33f, -0.2f, -0.41f}, {1.88f, 0.59f, 1.43f});
+  const vec3 lamp(0.2f, 6.f, 0.3f);
+  addLamp(s, lamp);
+  // Upward surfaces more than a texel from every shadow: straight below the lamp there are none.
+  float darkest = 1e9f;
+  for (const Shown& p : bake(s, GetParam())) {
+    const bool top = p.normalW.y > 0.9f && p.positionW.y > 0.5f;
+    const bool hidden = p.positionW.y < 0.6f && p.positionW.x < 0.93f && p.positionW.z < 0.87f;
+    if (!top || hidden) continue;
+    // The upper box throws its shadow on the lower one up to 0.07 m; two texels more are mixed.
+    if (p.positionW.y < 0.6f && p.positionW.x < 1.5f && p.positionW.z < 1.44f) continue;
+    const vec3 d = lamp - p.positionW;
+    const float truth = 40.f / kPi * d.y / std::pow(glm::length(d), 3.f);
+    darkest = std::min(darkest, p.brightness / truth);
+  }
+  EXPECT_GT(darkest, 0.95f);
+}
+
+INSTANTIATE_TEST_SUITE_P(Positions, Leaks, ::testing::Values(1, 4));
+
+}  // namespace
+}  // namespace lucerna::bake
