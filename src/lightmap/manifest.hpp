@@ -55,6 +55,9 @@ struct Manifest {
   std::vector<LightEntry> lights;
 };
 
+// All files that it names.
+std::vector<FileEntry> filesOf(const Manifest& manifest);
+
 std::string toJson(const Manifest& manifest);
 // Errors (ErrorKind::Input): every fault, one a line. Names of files stay within the folder.
 Result<Manifest> manifestFrom(std::string_view text, const std::string& name);
