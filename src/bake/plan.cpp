@@ -78,6 +78,13 @@ Status choose(Plan& plan) {
   return {};
 }
 
+bool anyEmits(const World& world) {
+  return std::ranges::any_of(world.objects, [&](const WorldObject& object) {
+    const scene::Object& drawn = world.scene->objects[object.object];
+    return world.scene->materials[drawn.material].emissive != vec3(0.f);
+  });
+}
+
 void addWarnings(Plan& plan) {
   const Charts& charts = plan.charts;
   if (charts.degenerate > 0)
@@ -89,7 +96,7 @@ void addWarnings(Plan& plan) {
         "a lower --density would hold them",
         charts.shrunk));
   const bool dark =
-      !plan.emittersShine() &&
+      !(plan.emittersShine() && anyEmits(plan.world)) &&
       std::ranges::all_of(plan.groups, [](const LightGroup& g) { return g.lights.empty(); });
   if (dark) plan.warnings.push_back("the scene has no lights to bake; the maps will be black");
 }

@@ -95,8 +95,8 @@ Result<Scan> scan(int file, const std::filesystem::path& path, std::uint64_t pla
   for (; at < size;) {
     Record record;
     if (size - at < sizeof record) break;  // torn
-    if (!readOne(file, at, record) || record.hash != record.own() || record.unit >= units ||
-        record.bytes > kMostPayload) {
+    if (!readOne(file, at, record) || record.hash != record.own() || record.spare != 0 ||
+        record.unit >= units || record.bytes > kMostPayload) {
       damaged("found a damaged record", at);
       break;
     }
