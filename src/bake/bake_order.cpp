@@ -61,12 +61,16 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
   for (const JsonValue& group : from.at("lights").elements()) group.text(s.groups.emplace_back());
 }
 
-// "density: 10 there, 20 here"; one that is missing is "none".
+std::string textOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// "density is 10 there, 20 here"; one that is missing is "none".
 std::string differences(const Json& there, const Json& here) {
   std::vector<std::string> list;
   const auto compare = [&](const std::string& key) {
-    const std::string a = there.contains(key) ? there[key].dump() : "none";
-    const std::string b = here.contains(key) ? here[key].dump() : "none";
+    const std::string a = there.contains(key) ? textOf(there[key]) : "none";
+    const std::string b = here.contains(key) ? textOf(here[key]) : "none";
     if (a != b) list.push_back(fmt::format("{} is {} there, {} here", key, a, b));
   };
   for (const auto& [key, value] : there.items()) compare(key);
