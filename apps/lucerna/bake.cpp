@@ -120,15 +120,11 @@ Json describe(const bake::Preflight& found) {
 }
 
 Json describe(const bake::Estimate& e) {
-  return {{"sampled_units", e.units},
-          {"sampled_texels", e.texels},
-          {"prepare_seconds", e.prepareSeconds},
-          {"light_seconds", e.lightSeconds},
-          {"deviation", e.deviation},
-          {"threads", threadCount()},
-          {"light_bytes", e.lightBytes},
-          {"finish_bytes", e.finishBytes},
-          {"log_bytes", e.logBytes}};
+  return {{"sampled_units", e.units},        {"sampled_texels", e.texels},
+          {"emitter_cells", e.emitterCells}, {"prepare_seconds", e.prepareSeconds},
+          {"light_seconds", e.lightSeconds}, {"deviation", e.deviation},
+          {"threads", threadCount()},        {"light_bytes", e.lightBytes},
+          {"finish_bytes", e.finishBytes},   {"log_bytes", e.logBytes}};
 }
 
 std::string estimateText(const bake::Plan& plan, const bake::Estimate& e) {
@@ -140,11 +136,13 @@ std::string estimateText(const bake::Plan& plan, const bake::Estimate& e) {
       100. * bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side));
   std::size_t lights = 0;
   for (const bake::LightGroup& group : plan.groups) lights += group.lights.size();
-  text += fmt::format("{}, in {} groups that switch\n", lights, plan.groups.size() - 1);
+  text += fmt::format("{}, in {} groups that switch; {} cells of surfaces that shine\n", lights,
+                      plan.groups.size() - 1, e.emitterCells);
   text += fmt::format(
-      "light      about {:.3g} s, give or take {:.2g} s, on {} threads: an estimate, by {} of {} "
-      "units\n",
-      e.prepareSeconds + e.lightSeconds, 2. * e.deviation, threadCount(), e.units,
+      "light      about {:.3g} s after {:.2g} s to prepare, give or take {:.2g} s, on {} threads: "
+      "an "
+      "estimate, by {} of {} units\n",
+      e.lightSeconds, e.prepareSeconds, 2. * e.deviation, threadCount(), e.units,
       plan.units.size());
   if (e.lightBytes != 0)
     text += fmt::format("memory     about {} while lighting, {} while writing maps\n",

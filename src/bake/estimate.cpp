@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -59,21 +60,36 @@ std::uint64_t litTexels(const UnitLight& light) {
   return count;
 }
 
+// The unit's blocks one by one, until it is late.
+template <typename Late>
+Measured lit(const Plan& plan, const LightScene& scene, const Unit& unit, Late late) {
+  Measured sum;
+  const auto start = Clock::now();
+  UnitLighter lighter(plan, scene);
+  for (std::uint32_t i = unit.firstBlock; i < unit.firstBlock + unit.blocks && !late(); ++i) {
+    const auto texels = static_cast<std::uint32_t>(plan.blocks[i].size.x * plan.blocks[i].size.y);
+    const UnitLight light = lighter.light({.firstBlock = i, .blocks = 1, .texels = texels});
+    sum.texels += texels;
+    sum.bytes += toBytes(light).size();
+    sum.litTexels += litTexels(light);
+  }
+  sum.seconds = secondsSince(start);
+  return sum;
+}
+
 std::vector<Measured> measure(const Plan& plan, const LightScene& scene, double seconds) {
   const std::vector<std::uint32_t> order = shuffled(plan.units.size());
   std::vector<Measured> found;
   std::mutex adding;
+  std::atomic<bool> begun = false;
   const auto start = Clock::now();
+  const auto late = [&] {
+    return (begun.exchange(true) && secondsSince(start) > seconds) || Progress::cancelled();
+  };
   parallelFor(order.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if ((i > 0 && secondsSince(start) > seconds) || Progress::cancelled()) return;
-      const Unit& unit = plan.units[order[i]];
-      const auto began = Clock::now();
-      const UnitLight light = UnitLighter(plan, scene).light(unit);
-      const Measured one{.seconds = secondsSince(began),
-                         .texels = static_cast<double>(unit.texels),
-                         .bytes = toBytes(light).size(),
-                         .litTexels = litTexels(light)};
+      const Measured one = lit(plan, scene, plan.units[order[i]], late);
+      if (one.texels == 0.) return;
       const std::scoped_lock lock(adding);
       found.push_back(one);
     }
@@ -125,6 +141,7 @@ Result<Estimate> estimate(const Plan& plan, double seconds) {
   const std::uint64_t planned = residentBytes();
   const auto start = Clock::now();
   const LightScene scene(plan);
+  result.emitterCells = scene.emitters.cells;
   result.prepareSeconds = secondsSince(start);
   const std::vector<Measured> found = measure(plan, scene, seconds);
   if (Progress::cancelled() || found.empty()) return error(ErrorKind::Cancelled, "cancelled");

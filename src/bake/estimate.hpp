@@ -9,7 +9,8 @@
 namespace lucerna::bake {
 
 struct Estimate {
-  std::uint64_t units = 0, texels = 0;  // that were lit for it
+  std::uint64_t units = 0, texels = 0;  // that were lit for it, some units in part
+  std::uint64_t emitterCells = 0;       // of surfaces that shine
   double prepareSeconds = 0.;           // taken, before the first ray
   double lightSeconds = 0.;             // of this machine's threads as they are set
   double deviation = 0.;                // standard, of lightSeconds; 0 of a single unit
@@ -19,8 +20,8 @@ struct Estimate {
   std::uint64_t logBytes = 0;  // in DIR/work
 };
 
-// Lights units in a random order, the same each time, for about so many seconds, and at least one;
-// what they take goes by their texels. ErrorKind::Cancelled after Ctrl-C.
+// Lights units in a random order, the same each time, for about so many seconds, and a block at
+// least; what they take goes by their texels. ErrorKind::Cancelled after Ctrl-C.
 Result<Estimate> estimate(const Plan& plan, double seconds);
 
 }  // namespace lucerna::bake

@@ -102,6 +102,31 @@ TEST(Pictures, WhiteInPiLuxIsHalfOfTheCurve) {
   EXPECT_GT(*tonePicture(map, 4.f).pixel<std::uint8_t>(0, 0), shown);
 }
 
+TEST(Pictures, PatchesShowTrianglesAndTiles) {
+  Patch patch{.side = 16, .maps = 2};
+  patch.triangles.roots = {{.map = 1, .borders = 0, .scale = 1.f, .corners = {}}};
+  patch.triangles.roots[0].corners = {ivec2(0), ivec2(8 * kPatchUnit, 0), ivec2(0, 8 * kPatchUnit)};
+  patch.triangles.nodes = {PatchNode::Split, PatchNode::Leaf, PatchNode::Leaf, PatchNode::Nothing,
+                           PatchNode::Leaf};
+  patch.tiles.tiles = {{.place = {.map = 0, .x = 1, .y = 0}, .scale = 2.f, .mask = 1}};
+  patch.tiles.values.assign(kTileTexels, 65535);
+  const Image tiles = patchPicture(patch, 0), triangles = patchPicture(patch, 1);
+  EXPECT_EQ(*tiles.pixel<std::uint8_t>(8, 0), 255);
+  EXPECT_EQ(*tiles.pixel<std::uint8_t>(9, 0), 0);
+  EXPECT_EQ(*tiles.pixel<std::uint8_t>(0, 0), 0);
+  const auto at = [&](int x, int y) {
+    const std::uint8_t* rgb = triangles.pixel<std::uint8_t>(x, y);
+    return std::array{rgb[0], rgb[1], rgb[2]};
+  };
+  const std::array<std::uint8_t, 3> black{};
+  EXPECT_NE(at(0, 0), black);
+  EXPECT_NE(at(5, 0), black);
+  EXPECT_NE(at(0, 0), at(5, 0));  // two leaves
+  EXPECT_EQ(at(0, 5), black);     // nothing
+  EXPECT_EQ(at(12, 12), black);
+  EXPECT_TRUE(lights(patch, 0) && lights(patch, 1) && !lights(patch, 2));
+}
+
 TEST(Densities, AreTexelsAMetreInTheWorld) {
   scene::Scene scene;
   scene.meshes.emplace_back().positions = {vec3(0), vec3(1, 0, 0), vec3(0, 1, 0)};

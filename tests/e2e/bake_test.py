@@ -155,6 +155,10 @@ class BakeTest(unittest.TestCase):
                 return False
         return reached
 
+    def written(self, folder, count):
+        """Whether so many maps are written or being written."""
+        return lambda: len(list((self.folder / folder).glob("*map*"))) >= count
+
     def test_what_is_killed_goes_on(self):
         plain = self.whole("plain", *LONG)
         seed = random.randrange(1 << 30)
@@ -164,7 +168,7 @@ class BakeTest(unittest.TestCase):
             folder = f"k{number}"
             bytes_, files = sorted(chance.sample(range(1, 12 << 20), 2)), chance.randint(1, 7)
             moments = [self.logged(folder, bytes_[0]), self.logged(folder, bytes_[1]),
-                       lambda: len(list((self.folder / folder).glob("*map*"))) >= files]  # noqa: B023
+                       self.written(folder, files)]
             for reached in moments:
                 kills += self.end(folder, signal.SIGKILL, reached, *LONG, "--resume") == -signal.SIGKILL
             self.ok(self.bake(folder, *LONG, "--resume"))
