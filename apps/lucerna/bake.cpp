@@ -283,6 +283,30 @@ void addBake(CommandLine& line) {
           },
           "embree, or octree as the thesis (embree)")
       ->check(oneOf({"embree", "octree"}));
+  command
+      ->add_option_function<std::vector<float>>(
+          "--sky",
+          [options](const std::vector<float>& values) {
+            options->bake.sky =
+                values.size() == 3 ? vec3(values[0], values[1], values[2]) : vec3(values[0]);
+          },
+          "R,G,B or one radiance of the sky all around (0: none)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(between(0, 1e6));
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--encode",
+          [options](const std::vector<std::string>& names) {
+            for (const std::string& name : names)
+              options->bake.encodings.push_back(name == "rgb9e5" ? bake::Encoding::Rgb9e5
+                                                : name == "bc6h" ? bake::Encoding::Bc6h
+                                                                 : bake::Encoding::Png);
+          },
+          "rgb9e5, bc6h (KTX2) and png copies of the maps, beside the EXR masters")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check(oneOf({"rgb9e5", "bc6h", "png"}));
   command->add_flag("--resume", options->resume, "go on where an earlier run stopped");
   command->add_option_function<std::string>(
       "--shard",

@@ -5,6 +5,7 @@
 
 #include "core/text.hpp"
 #include "lightmap/place.hpp"
+#include "lightmap/switching.hpp"
 
 namespace lucerna::app {
 namespace {
@@ -57,8 +58,12 @@ void switchOffBakedLights(scene::Scene& scene, const lightmap::Manifest& manifes
 Result<std::vector<Image>> mapsWith(const lightmap::Lightmap& lightmap,
                                     const std::vector<std::string>& lightsOff) {
   LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, lightsOff));
-  // The patches of the other groups are added here (lightmap/switching).
-  return lightmap.maps;
+  LUCERNA_TRY(maps, lightmap::SwitchedMaps::create(lightmap.maps, lightmap.patches));
+  for (std::size_t i = 0; i < lightmap.patches.size(); ++i)
+    if (const lightmap::Patch& patch = lightmap.patches[i]; !isAmong(lightsOff, patch.group))
+      LUCERNA_TRY_VOID(maps.set(i, patch.color));
+  maps.update();
+  return maps.maps();
 }
 
 Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSettings& settings) {

@@ -26,22 +26,40 @@ int touchedAround(const MapTexels& texels, int map, ivec2 p) {
       std::ranges::count_if(kAround, [&](ivec2 step) { return texels.has(map, p + step); }));
 }
 
+// The mean or, of hidden texels, the darkest of `count` colours.
+class Filling {
+ public:
+  explicit Filling(bool darkest) : darkest_(darkest) {}
+  void add(vec3 color) {
+    sum_ += color;
+    least_ = count_ == 0 ? color : glm::min(least_, color);
+    ++count_;
+  }
+  // count: of all texels around, those that were not added being black.
+  vec3 of(int count) const {
+    if (darkest_) return count_ < count ? vec3(0.f) : least_;
+    return sum_ / static_cast<float>(count);
+  }
+  int count() const { return count_; }
+
+ private:
+  bool darkest_;
+  vec3 sum_{0.f}, least_{0.f};
+  int count_ = 0;
+};
+
 void dilateMap(Image& image, const MapTexels& texels, int map) {
   const int side = texels.side;
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x) {
       if (texels.has(map, {x, y})) continue;
-      vec3 sum(0.f);
-      int count = 0;
+      Filling filling(texels.isHidden(map, {x, y}));
       for (const ivec2 step : kAround) {
         const ivec2 p = ivec2(x, y) + step;
-        if (!texels.has(map, p)) continue;
-        sum += colorOf(image.pixel<std::uint16_t>(p.x, p.y));
-        ++count;
+        if (texels.has(map, p)) filling.add(colorOf(image.pixel<std::uint16_t>(p.x, p.y)));
       }
-      if (count > 0)
-        std::ranges::copy(halves(sum / static_cast<float>(count)),
-                          image.pixel<std::uint16_t>(x, y));
+      if (filling.count() > 0)
+        std::ranges::copy(halves(filling.of(filling.count())), image.pixel<std::uint16_t>(x, y));
     }
 }
 
@@ -69,25 +87,41 @@ void dilateGroup(std::vector<LitTexel>& lit, const MapTexels& texels) {
   std::ranges::stable_sort(shares, {}, [](const Share& s) { return orderOf(s.at); });
   for (std::size_t i = 0; i < shares.size();) {
     LitTexel texel = shares[i].at;
-    vec3 sum(0.f);
+    Filling filling(texels.isHidden(texel.map, {texel.x, texel.y}));
     for (const auto order = orderOf(texel); i < shares.size() && orderOf(shares[i].at) == order;
          ++i)
-      sum += shares[i].value;
+      filling.add(shares[i].value);
     const int count = touchedAround(texels, texel.map, {texel.x, texel.y});
-    texel.rgb = halves(sum / static_cast<float>(count));
-    lit.push_back(texel);
+    texel.rgb = halves(filling.of(count));
+    if (texel.rgb != Rgb{}) lit.push_back(texel);
   }
   std::ranges::sort(lit, {}, orderOf);
 }
 
 }  // namespace
 
+namespace {
+
+// Whether the texel is one that the chart was packed by. What it touches by less may be another's.
+bool isOf(const Plan& plan, std::uint32_t chart, ivec2 texel) {
+  const TexelMask& mask = plan.packed.masks[chart];
+  const ivec2 p = texel - ivec2(plan.packed.least[chart]);
+  return p.x >= 0 && p.y >= 0 && p.x < mask.size().x && p.y < mask.size().y && mask.at(p.x, p.y);
+}
+
+}  // namespace
+
+bool MapTexels::isBeside(int map, ivec2 p) const {
+  return !has(map, p) && touchedAround(*this, map, p) > 0;
+}
+
 BakedLight emptyLight(const Plan& plan) {
   BakedLight baked;
   const int side = plan.settings.pack.side;
   const auto count = static_cast<std::size_t>(plan.packed.packing.maps);
   baked.texels.side = side;
-  baked.texels.touched.assign(count, std::vector<bool>(static_cast<std::size_t>(side) * side));
+  for (auto* list : {&baked.texels.touched, &baked.texels.hidden})
+    list->assign(count, std::vector<bool>(static_cast<std::size_t>(side) * side));
   for (std::size_t i = 0; i < count; ++i)
     baked.maps.emplace_back(side, side, 3, ComponentType::Half);
   baked.groups.resize(plan.groups.size());
@@ -103,10 +137,17 @@ void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLigh
     for (int y = 0; y < block.size.y; ++y)
       for (int x = 0; x < block.size.x; ++x) {
         const auto index = static_cast<std::size_t>(y * block.size.x + x);
-        if (!(blockLight.touched[index / 8] >> (index % 8) & 1)) continue;
-        const ivec2 p = placed(plan, block.chart, block.corner + ivec2(x, y));
-        baked.texels.touched[static_cast<std::size_t>(map)]
-                            [static_cast<std::size_t>(p.y) * baked.texels.side + p.x] = true;
+        const ivec2 texel = block.corner + ivec2(x, y);
+        const bool touched = blockLight.touched[index / 8] >> (index % 8) & 1;
+        if (!isOf(plan, block.chart, texel)) {
+          if (touched) at += 3;
+          continue;
+        }
+        const ivec2 p = placed(plan, block.chart, texel);
+        auto& texels = touched ? baked.texels.touched : baked.texels.hidden;
+        texels[static_cast<std::size_t>(map)]
+              [static_cast<std::size_t>(p.y) * baked.texels.side + p.x] = true;
+        if (!touched) continue;
         for (const GroupLight& group : blockLight.groups) {
           const Rgb rgb{group.rgb[at], group.rgb[at + 1], group.rgb[at + 2]};
           if (group.group == 0)

@@ -13,11 +13,17 @@ namespace lucerna::bake {
 struct MapTexels {
   int side = 0;
   std::vector<std::vector<bool>> touched;  // of each map, row by row
+  std::vector<std::vector<bool>> hidden;   // those of charts that are inside of solids
 
   bool has(int map, ivec2 p) const {
     return p.x >= 0 && p.y >= 0 && p.x < side && p.y < side &&
            touched[static_cast<std::size_t>(map)][static_cast<std::size_t>(p.y) * side + p.x];
   }
+  bool isHidden(int map, ivec2 p) const {
+    return hidden[static_cast<std::size_t>(map)][static_cast<std::size_t>(p.y) * side + p.x];
+  }
+  // Not on the scene, but next to a texel that is: one that is filled for bilinear filtering.
+  bool isBeside(int map, ivec2 p) const;
 };
 
 // One group's light where there is any: irradiance.
@@ -36,7 +42,8 @@ BakedLight emptyLight(const Plan& plan);
 void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light);
 
 // Gives texels beside those that the scene touches the mean of these, for bilinear filtering; in
-// the maps and in the groups. Sorts the groups by map, row and column.
+// the maps and in the groups. Texels inside of solids get the darkest: what is on the other side of
+// a wall is not to shine through. Sorts the groups by map, row and column.
 void dilate(BakedLight& baked);
 
 }  // namespace lucerna::bake

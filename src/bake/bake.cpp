@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "bake/assemble.hpp"
+#include "bake/bake_order.hpp"
 #include "bake/unit_log.hpp"
 #include "bake/write_lightmap.hpp"
 #include "core/parallel.hpp"
@@ -155,7 +156,8 @@ Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
     if (unfinished) return false;
     return manifest.error();
   }
-  if (manifest->sceneHash != lightmap::hashText16(plan.hash)) {
+  if (manifest->sceneHash != lightmap::hashText16(plan.hash) ||
+      manifest->settings != settingsText(plan.settings)) {
     if (unfinished) return false;
     return error(ErrorKind::Usage,
                  "-o: '{}' holds a finished bake of another scene or other settings; bake without "

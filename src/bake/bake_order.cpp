@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFormat = "bake/1";
+constexpr std::initializer_list<const char*> kEncodings{"rgb9e5", "bc6h", "png"};  // as Encoding
 
 // With no more digits than it needs.
 Json number(float value) {
@@ -31,18 +32,23 @@ Json settingsJson(const BakeSettings& s) {
             {"lightSamples", s.sampling.lightSamples},
             {"emitterSize", number(s.sampling.emitterSize)},
             {"faintest", number(s.faintest)},
+            {"sky", {number(s.sky.x), number(s.sky.y), number(s.sky.z)}},
+            {"skyDirections", s.skyDirections},
             {"engine", s.engine == Engine::Octree ? "octree" : "embree"}};
   if (std::isfinite(s.reach)) json["reach"] = number(s.reach);
   if (!s.groups.empty()) json["lights"] = s.groups;
+  for (const Encoding encoding : s.encodings)
+    json["encode"].push_back(kEncodings.begin()[static_cast<std::size_t>(encoding)]);
   return json;
 }
 
 void readSettings(const JsonValue& from, BakeSettings& s) {
   if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions", "lightSamples",
-                    "emitterSize", "faintest", "engine", "reach", "lights"}))
+                    "emitterSize", "faintest", "sky", "skyDirections", "engine", "reach", "lights",
+                    "encode"}))
     return;
   from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "lightSamples",
-                "emitterSize", "faintest", "engine"});
+                "emitterSize", "faintest", "sky", "skyDirections", "engine"});
   int choice = 0;
   if (from.readChoice("unwrap", {"charts", "pairs"}, choice))
     s.unwrap = choice == 0 ? Unwrap::Charts : Unwrap::Pairs;
@@ -57,8 +63,15 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
   if (from.readChoice("engine", {"embree", "octree"}, choice))
     s.engine = choice == 0 ? Engine::Embree : Engine::Octree;
   from.read("reach", s.reach, {0.01f, 1e6f, "m"});
-  if (!from.has("lights")) return;
-  for (const JsonValue& group : from.at("lights").elements()) group.text(s.groups.emplace_back());
+  from.read("sky", s.sky, {0.f, 1e6f, ""});
+  from.readInteger("skyDirections", s.skyDirections, 1, 1 << 20);
+  if (from.has("lights"))
+    for (const JsonValue& group : from.at("lights").elements()) group.text(s.groups.emplace_back());
+  if (!from.has("encode")) return;
+  const std::vector<std::string> names(kEncodings.begin(), kEncodings.end());
+  for (const JsonValue& encoding : from.at("encode").elements())
+    if (std::size_t index = 0; encoding.choice(names, index))
+      s.encodings.push_back(static_cast<Encoding>(index));
 }
 
 std::string textOf(const Json& json) {

@@ -20,6 +20,9 @@ BakeOrder someOrder() {
   order.settings.engine = Engine::Octree;
   order.settings.pack = {.side = 512, .gap = 3, .mostMaps = 7};
   order.settings.sampling = {.positions = 4, .lightSamples = 64, .emitterSize = 0.1f};
+  order.settings.sky = vec3(0.1f, 0.2f, 0.7f);
+  order.settings.skyDirections = 64;
+  order.settings.encodings = {Encoding::Png, Encoding::Rgb9e5};
   order.settings.groups = {"lamps", "always-on"};
   return order;
 }
@@ -34,6 +37,8 @@ TEST(BakeOrder, ComesBackToTheBit) {
   EXPECT_EQ(back->settings.faintest, order.settings.faintest);
   EXPECT_EQ(back->settings.reach, order.settings.reach);
   EXPECT_EQ(back->settings.sampling.emitterSize, order.settings.sampling.emitterSize);
+  EXPECT_EQ(back->settings.sky, order.settings.sky);
+  EXPECT_EQ(back->settings.encodings, order.settings.encodings);
   EXPECT_EQ(back->settings.groups, order.settings.groups);
   const Result<BakeOrder> plain =
       orderFrom(toJson({.scene = "a.obj", .plan = 0, .settings = {}}), "bake.json");

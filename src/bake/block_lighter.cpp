@@ -29,6 +29,11 @@ float distanceBetween(const Aabb& a, const Aabb& b) {
   return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), vec3(0.f)));
 }
 
+// The largest dot(axis, p) of the box's points.
+float highestAlong(vec3 axis, const Aabb& box) {
+  return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
+}
+
 // The size of the light, seen as a ball around its place.
 float ballOf(const PlacedLight& light) {
   return light.kind == LightKind::Directional ? 0.f : light.radius;
@@ -243,12 +248,19 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
 // False only if nothing of the node reaches the tile.
 bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
                             const EmitterNode& node) const {
+  const bool oneWay = node.isCell() || node.emission.normalW != vec3(0.f);
   if (samples.planar) {
-    // The corner of the box that is highest above the tile's plane.
-    const vec3 highest = glm::mix(node.boxW.min, node.boxW.max, glm::step(vec3(0.f), samples.axis));
-    // A cell's surface reaches around its middle.
-    if (glm::dot(samples.axis, highest - samples.corners[0]) + node.size <= 0.f) return false;
+    // A cell's surface reaches around its middle, by no more than it is inclined.
+    const float inclined = glm::dot(samples.axis, node.axis);
+    const float more =
+        oneWay ? node.size * std::sqrt(std::max(1.f - inclined * inclined, 0.f)) : node.size;
+    if (highestAlong(samples.axis, node.boxW) - glm::dot(samples.axis, samples.corners[0]) + more <=
+        liftAt(samples.corners[0]))
+      return false;
   }
+  if (oneWay && highestAlong(node.axis, tile.boundsW) + highestAlong(-node.axis, node.boxW) <=
+                    liftAt(samples.boundsW.center()))
+    return false;
   if (node.cosine <= 0.f) return true;
   // Whether all directions from the node to the tile are behind all of its normals: both as balls.
   const vec3 to = tile.boundsW.center() - node.boxW.center();
@@ -307,11 +319,35 @@ void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const E
     }
 }
 
+// found_: the nodes with one direction that may light the block, for all of its tiles.
+void BlockLighter::findNodes(const Samples& samples) {
+  const auto start = Clock::now();
+  const std::vector<EmitterNode>& nodes = emitters_.nodes;
+  const Tile all{
+      .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
+  found_.clear();
+  stack_.assign(1, 0);
+  while (!stack_.empty()) {
+    const std::uint32_t at = stack_.back();
+    stack_.pop_back();
+    const EmitterNode& node = nodes[at];
+    if (distanceBetween(node.boxW, all.boundsW) >= node.reach || !mayLight(samples, all, node))
+      continue;
+    if (node.isCell() || node.emission.normalW != vec3(0.f)) {
+      found_.push_back(at);
+      continue;
+    }
+    stack_.push_back(node.right);
+    stack_.push_back(at + 1);
+  }
+  counters.shadingSeconds += secondsSince(start);
+}
+
 void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
   const auto start = Clock::now();
   const double tracing = counters.tracingSeconds;
   const std::vector<EmitterNode>& nodes = emitters_.nodes;
-  stack_.assign(1, 0);
+  stack_ = found_;
   while (!stack_.empty()) {
     const std::uint32_t at = stack_.back();
     stack_.pop_back();
@@ -331,31 +367,28 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
 }
 
-void BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
-                         std::span<vec3> texels) {
+bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
+                         std::vector<vec3>& texels) {
+  found_.clear();
+  if (emitters && !emitters_.nodes.empty()) findNodes(samples);
+  const auto first = std::ranges::find_if(
+      lights, [&](const PlacedLight& light) { return mayLight(samples, light); });
+  if (first == lights.end() && found_.empty()) return false;
   sums_.assign(samples.size(), vec3(0.f));
+  for (const PlacedLight& light : lights.subspan(static_cast<std::size_t>(first - lights.begin())))
+    if (mayLight(samples, light)) lightBy(samples, light);
   lit_.clear();
-  values_.clear();
   rays_.resize(0);
-  bool any = false;
-  for (const PlacedLight& light : lights)
-    if (mayLight(samples, light)) {
-      lightBy(samples, light);
-      any = true;
-    }
-  if (emitters && !emitters_.nodes.empty()) {
-    lit_.clear();
-    rays_.resize(0);
+  if (!found_.empty())
     for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
-    any = true;
-  }
-  if (!any) return;
+  texels.assign(samples.texelCount, vec3(0.f));
   for (std::size_t i = 0; i < samples.size();) {
-    const std::size_t first = i;
+    const std::size_t begin = i;
     vec3 sum(0.f);
-    for (; i < samples.size() && samples.texels[i] == samples.texels[first]; ++i) sum += sums_[i];
-    texels[samples.texels[first]] += sum / static_cast<float>(i - first);
+    for (; i < samples.size() && samples.texels[i] == samples.texels[begin]; ++i) sum += sums_[i];
+    texels[samples.texels[begin]] = sum / static_cast<float>(i - begin);
   }
+  return true;
 }
 
 }  // namespace lucerna::bake

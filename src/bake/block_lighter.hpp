@@ -44,10 +44,10 @@ class BlockLighter {
   BlockLighter(const ShadowTracer& tracer, const Occluders& occluders, const Emitters& emitters,
                const LighterSettings& settings, const scene::Scene& scene);
 
-  // Adds the mean irradiance (scene/light.hpp) to each texel of the block: row by row. Of emitting
-  // surfaces only if `emitters` is set.
-  void light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::span<vec3> texels);
+  // The mean irradiance (scene/light.hpp) of each texel of the block, row by row; of emitting
+  // surfaces only if `emitters` is set. False, and nothing is written: nothing reaches the block.
+  bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
+             std::vector<vec3>& texels);
 
   LightCounters counters;
 
@@ -65,6 +65,7 @@ class BlockLighter {
 
   // Emitting surfaces, tile by tile.
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
+  void findNodes(const Samples& samples);
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
@@ -82,8 +83,8 @@ class BlockLighter {
   std::vector<std::uint32_t> lit_;  // samples that they lead to
   std::vector<vec3> values_;        // what these get if nothing is in the way; of emitters
   ShadowRays rays_;
-  std::vector<vec3> shares_;          // of the light that they let through
-  std::vector<std::uint32_t> stack_;  // nodes of emitters
+  std::vector<vec3> shares_;                  // of the light that they let through
+  std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
   // Of a light, one a sample:
   std::vector<vec3> light_;
   std::vector<float> seen_;          // of the points asked

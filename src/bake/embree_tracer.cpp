@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include "bake/shadow_tracer.hpp"
 #include "core/check.hpp"
@@ -12,7 +13,9 @@ namespace {
 
 constexpr std::size_t kPacket = 16;
 
-// What the filter finds behind Embree's context.
+// What the filter finds behind Embree's context. Each triangle must reach the filter once: packets
+// that are marked coherent show it some twice (Embree 3.13.5), and so may scenes of high build
+// quality, which split triangles. Neither is faster here.
 struct Context {
   RTCIntersectContext embree;  // first: Embree hands out its address
   const World* world = nullptr;
@@ -44,11 +47,12 @@ void filter(const RTCFilterFunctionNArguments* args) {
 class EmbreeTracer final : public ShadowTracer {
  public:
   explicit EmbreeTracer(const World& world)
-      : world_(world), lookup_(*world.scene, mat4(1.f)), device_(rtcNewDevice(nullptr)) {
+      : world_(world),
+        lookup_(*world.scene, mat4(1.f)),
+        device_(rtcNewDevice((std::string("isa=") + rayInstructionSet()).c_str())) {
     CHECK(device_, "Embree makes no device (error {})",
           static_cast<int>(rtcGetDeviceError(nullptr)));
     scene_ = rtcNewScene(device_);
-    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_HIGH);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     std::vector<std::uint32_t> opaque;
     for (std::uint32_t i = 0; i < world.triangleCount(); ++i) {
@@ -72,9 +76,11 @@ class EmbreeTracer final : public ShadowTracer {
     CHECK(rays.size() == shares.size());
     Context context{.embree = {}, .world = &world_, .lookup = &lookup_, .triangles = filtered_};
     rtcInitIntersectContext(&context.embree);
-    context.embree.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     alignas(64) RTCRay16 packet;
     alignas(64) std::array<int, kPacket> valid;
+    // For lanes without a ray as well: Embree 3.13.5 asks the filter about some of them.
+    std::array<vec3, kPacket> through;
+    context.shares = through.data();
     for (unsigned i = 0; i < kPacket; ++i) {
       packet.tnear[i] = kClearOfLight;
       packet.time[i] = 0.f;
@@ -85,11 +91,10 @@ class EmbreeTracer final : public ShadowTracer {
     for (std::size_t first = 0; first < rays.size(); first += kPacket) {
       const std::size_t count = std::min(kPacket, rays.size() - first);
       setRays(packet, valid, rays, first, count);
-      context.shares = &shares[first];
-      std::fill_n(context.shares, count, vec3(1.f));
+      through.fill(vec3(1.f));
       rtcOccluded16(valid.data(), scene_, &context.embree, &packet);
-      for (std::size_t i = 0; i < count; ++i)
-        if (packet.tfar[i] < 0.f) shares[first + i] = vec3(0.f);  // Embree's mark
+      for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
+        shares[first + i] = packet.tfar[i] < 0.f ? vec3(0.f) : through[i];
     }
   }
 
@@ -137,6 +142,10 @@ class EmbreeTracer final : public ShadowTracer {
 };
 
 }  // namespace
+
+const char* rayInstructionSet() {
+  return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2";
+}
 
 std::unique_ptr<ShadowTracer> makeEmbreeTracer(const World& world) {
   return std::make_unique<EmbreeTracer>(world);

@@ -1,6 +1,8 @@
 #include "bake/light_set.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
 namespace lucerna::bake {
@@ -26,6 +28,25 @@ std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach) 
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+std::vector<scene::PlacedLight> skyLights(vec3 radiance, int directions) {
+  std::vector<scene::PlacedLight> lights;
+  if (radiance == vec3(0.f)) return lights;
+  // Points of a spiral (Swinbank and Purser, "Fibonacci grids", 2006); each stands for as much of
+  // the sphere.
+  const double golden = (1. + std::sqrt(5.)) / 2.;
+  for (int i = 0; i < directions; ++i) {
+    const double y = 1. - (2. * i + 1.) / directions;
+    const double across = std::sqrt(1. - y * y), angle = 2. * glm::pi<double>() * i / golden;
+    scene::PlacedLight light;
+    light.kind = scene::LightKind::Directional;
+    light.directionW = -vec3(across * std::cos(angle), y, across * std::sin(angle));
+    light.intensity = radiance * (4.f * kPi / static_cast<float>(directions));
+    light.reach = std::numeric_limits<float>::infinity();
+    lights.push_back(light);
+  }
+  return lights;
 }
 
 }  // namespace lucerna::bake

@@ -18,4 +18,8 @@ struct LightGroup {
 // not. mostReach: m; no light reaches farther.
 std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach);
 
+// A sky of one radiance, as directional lights that are spread evenly over all directions. They are
+// none of the scene's: their PlacedLight::light is kNone.
+std::vector<scene::PlacedLight> skyLights(vec3 radiance, int directions);
+
 }  // namespace lucerna::bake

@@ -31,10 +31,10 @@ float valueOf(vec3 light, vec3 color) {
   return glm::dot(light, color) / glm::dot(color, color);
 }
 
-Channels channelsFor(const GroupLight& light, float tolerance) {
+Channels channelsFor(const PatchLight& light, float tolerance) {
   const vec3 color = largestOf(light.color) > 0.f ? light.color : vec3(1.f);
   float off = 0.f;
-  for (const LitTexel& texel : light.texels)
+  for (const PatchTexel& texel : light.texels)
     off = std::max(off, largestOf(glm::abs(texel.value - valueOf(texel.value, color) * color)));
   if (off <= tolerance / 8.f)
     return {.count = 1, .color = color, .weights = vec3(largestOf(color)), .leftOut = off};
@@ -44,9 +44,9 @@ Channels channelsFor(const GroupLight& light, float tolerance) {
   return {.count = 3, .color = each, .weights = each};
 }
 
-TexelTiles valuesOf(const GroupLight& light, const Channels& channels, float black) {
+TexelTiles valuesOf(const PatchLight& light, const Channels& channels, float black) {
   TexelTiles values(channels.count);
-  for (const LitTexel& texel : light.texels) {
+  for (const PatchTexel& texel : light.texels) {
     if (!(largestOf(texel.value) > black)) continue;
     float* to = values.add(texel.map, texel.x, texel.y);
     if (channels.count == 1) {
@@ -112,10 +112,10 @@ class Making {
   }
 
   // The largest difference of a used texel from the light that the group gives.
-  float worstOf(const Patch& patch, std::span<const LitTexel> lit) {
+  float worstOf(const Patch& patch, std::span<const PatchTexel> lit) {
     TexelTiles got = lightmap::decoded(lightmap::unpacked(patch), channels_.count);
     float worst = 0.f;
-    for (const LitTexel& texel : lit) {
+    for (const PatchTexel& texel : lit) {
       vec3 light(0.f);
       if (const float* found = got.find(texel.map, texel.x, texel.y))
         for (int c = 0; c < 3; ++c)
@@ -146,7 +146,7 @@ PatchMaker::PatchMaker(const lightmap::Layout& layout, std::span<const std::vect
     CHECK(map.size() == static_cast<std::size_t>(side_) * side_);
 }
 
-MadePatch PatchMaker::make(const GroupLight& light, const PatchTolerance& tolerance) const {
+MadePatch PatchMaker::make(const PatchLight& light, const PatchTolerance& tolerance) const {
   CHECK(tolerance.black <= tolerance.light);
   const Channels channels = channelsFor(light, tolerance.light);
   TexelTiles values = valuesOf(light, channels, tolerance.black);

@@ -12,16 +12,16 @@
 
 namespace lucerna::bake {
 
-struct LitTexel {
+struct PatchTexel {
   std::uint16_t map = 0, x = 0, y = 0;
   vec3 value{0.f};  // irradiance; finite, not negative
 };
 
-struct GroupLight {
+struct PatchLight {
   std::string group{};
   vec3 color{1.f};  // of its lights, linear, times intensity: what is factored out; lights that
                     // differ: their sum, or 1
-  std::span<const LitTexel> texels{};  // by map, row, column; the gap's filled texels, too
+  std::span<const PatchTexel> texels{};  // by map, row, column; the gap's filled texels, too
 };
 
 // At the group's own colour: a brighter one makes what is off brighter, too.
@@ -47,7 +47,7 @@ class PatchMaker {
 
   // Makes both forms and keeps the smaller. A value a texel is kept instead of three if all light
   // has the group's colour, to an eighth of the tolerance.
-  MadePatch make(const GroupLight& light, const PatchTolerance& tolerance = {}) const;
+  MadePatch make(const PatchLight& light, const PatchTolerance& tolerance = {}) const;
 
  private:
   int side_, maps_;

@@ -42,8 +42,8 @@ class Charts {
   const std::vector<std::vector<bool>>& used() const { return used_; }
 
   // light(map, texel's middle). Beside a chart as at its border, as gaps are filled.
-  std::vector<LitTexel> lit(const std::function<vec3(int, vec2)>& light) const {
-    std::vector<LitTexel> texels;
+  std::vector<PatchTexel> lit(const std::function<vec3(int, vec2)>& light) const {
+    std::vector<PatchTexel> texels;
     for (std::uint16_t map = 0; map < 2; ++map)
       for (std::uint16_t y = 0; y < kSide; ++y)
         for (std::uint16_t x = 0; x < kSide; ++x) {
@@ -104,18 +104,18 @@ vec3 hardEdged(int map, vec2 p) {
   return p.x + 0.37f * p.y < 55.f ? smooth(map, p) : vec3(0.f);
 }
 
-MadePatch made(const std::vector<LitTexel>& texels, vec3 color, PatchTolerance tolerance = {}) {
+MadePatch made(const std::vector<PatchTexel>& texels, vec3 color, PatchTolerance tolerance = {}) {
   return PatchMaker(charts().layout(), charts().used())
       .make({.group = "lamps", .color = color, .texels = texels}, tolerance);
 }
 
 // By switching it on over nothing: the largest difference of any used texel.
-float worstDifference(const MadePatch& made, const std::vector<LitTexel>& texels) {
+float worstDifference(const MadePatch& made, const std::vector<PatchTexel>& texels) {
   const Result<lightmap::Patch> patch = lightmap::patchFrom(made.bytes, "patch.bin");
   CHECK(patch, "{}", patch.error().message);
   std::vector<Image> dark(2, Image(kSide, kSide, 3, ComponentType::F32));
   std::vector<Image> wanted = dark;
-  for (const LitTexel& texel : texels)
+  for (const PatchTexel& texel : texels)
     for (int c = 0; c < 3; ++c)
       wanted[texel.map].pixel<float>(texel.x, texel.y)[c] = texel.value[c];
   Result<lightmap::SwitchedMaps> maps =
@@ -133,7 +133,7 @@ float worstDifference(const MadePatch& made, const std::vector<LitTexel>& texels
 }
 
 TEST(MakePatch, SmoothLightIsTrianglesWithinTheTolerance) {
-  const std::vector<LitTexel> texels = charts().lit(smooth);
+  const std::vector<PatchTexel> texels = charts().lit(smooth);
   const MadePatch patch = made(texels, vec3(2.f));
   EXPECT_EQ(patch.patch.form(), "triangles");
   EXPECT_EQ(patch.patch.channels, 1);
@@ -144,7 +144,7 @@ TEST(MakePatch, SmoothLightIsTrianglesWithinTheTolerance) {
 }
 
 TEST(MakePatch, HardEdgesStayWithinTheTolerance) {
-  const std::vector<LitTexel> texels = charts().lit(hardEdged);
+  const std::vector<PatchTexel> texels = charts().lit(hardEdged);
   const MadePatch patch = made(texels, vec3(1.f));
   EXPECT_EQ(patch.patch.form(), "triangles");
   EXPECT_LE(patch.worst, kTolerance);
@@ -152,7 +152,7 @@ TEST(MakePatch, HardEdgesStayWithinTheTolerance) {
 }
 
 TEST(MakePatch, ALargerToleranceTakesFewerBytes) {
-  const std::vector<LitTexel> texels = charts().lit(smooth);
+  const std::vector<PatchTexel> texels = charts().lit(smooth);
   const MadePatch fine = made(texels, vec3(1.f), {.light = 0.001f, .black = 0.0001f}),
                   coarse = made(texels, vec3(1.f), {.light = 0.02f, .black = 0.0001f});
   EXPECT_LT(coarse.bytes.size(), fine.bytes.size());
@@ -161,7 +161,7 @@ TEST(MakePatch, ALargerToleranceTakesFewerBytes) {
 }
 
 TEST(MakePatch, NoiseIsTiles) {
-  const std::vector<LitTexel> texels = charts().lit(
+  const std::vector<PatchTexel> texels = charts().lit(
       [](int, vec2 p) { return vec3(0.5f + 0.5f * std::sin(p.x * 12.9898f + p.y * 78.233f)); });
   const MadePatch patch = made(texels, vec3(1.f));
   EXPECT_EQ(patch.patch.form(), "tiles");
@@ -171,7 +171,7 @@ TEST(MakePatch, NoiseIsTiles) {
 
 TEST(MakePatch, OneColorIsOneValueAndTwoAreThree) {
   const vec3 amber(3.f, 1.5f, 0.f);
-  const std::vector<LitTexel> one =
+  const std::vector<PatchTexel> one =
       charts().lit([&](int map, vec2 p) { return amber * smooth(map, p).x; });
   const MadePatch scalar = made(one, amber);
   EXPECT_EQ(scalar.patch.channels, 1);
@@ -179,7 +179,7 @@ TEST(MakePatch, OneColorIsOneValueAndTwoAreThree) {
   EXPECT_LE(worstDifference(scalar, one), kTolerance);
 
   // Behind a pane the light is red.
-  const std::vector<LitTexel> tinted = charts().lit([&](int map, vec2 p) {
+  const std::vector<PatchTexel> tinted = charts().lit([&](int map, vec2 p) {
     return (p.x < 50.f ? amber : amber * vec3(1.f, 0.5f, 0.f)) * smooth(map, p).x;
   });
   const MadePatch colors = made(tinted, amber);
@@ -196,7 +196,7 @@ TEST(MakePatch, AnEmptyOneAndOneTexel) {
   EXPECT_EQ(empty.worst, 0.f);
   EXPECT_EQ(worstDifference(empty, {}), 0.f);
 
-  const std::vector<LitTexel> texel = {{1, 40, 40, vec3(0.25f, 0.5f, 0.75f)}};
+  const std::vector<PatchTexel> texel = {{1, 40, 40, vec3(0.25f, 0.5f, 0.75f)}};
   const MadePatch one = made(texel, vec3(1, 2, 3));
   EXPECT_EQ(one.patch.form(), "tiles");
   ASSERT_EQ(one.patch.tiles.tiles.size(), 1u);
@@ -206,7 +206,7 @@ TEST(MakePatch, AnEmptyOneAndOneTexel) {
 }
 
 TEST(MakePatch, WhatIsBlackIsDropped) {
-  const std::vector<LitTexel> texels =
+  const std::vector<PatchTexel> texels =
       charts().lit([](int map, vec2) { return vec3(map == 0 ? 0.0001f : 0.5f); });
   const MadePatch patch = made(texels, vec3(1.f));
   for (const lightmap::LightTile& tile : lightmap::unpacked(patch.patch).tiles)
@@ -216,7 +216,7 @@ TEST(MakePatch, WhatIsBlackIsDropped) {
 
 TEST(MakePatch, ALightWithoutColorOrOnNoChartHasAPatch) {
   // Texels on no chart, as no layout has them: tiles hold them.
-  const std::vector<LitTexel> texels = {{0, 127, 0, vec3(1.f)}, {0, 127, 127, vec3(0.5f)}};
+  const std::vector<PatchTexel> texels = {{0, 127, 0, vec3(1.f)}, {0, 127, 127, vec3(0.5f)}};
   EXPECT_LE(made(texels, vec3(1.f)).worst, 1e-4f);
   const MadePatch dark = made(texels, vec3(0.f));
   EXPECT_EQ(dark.patch.color, vec3(1.f));

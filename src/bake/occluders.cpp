@@ -82,6 +82,23 @@ Shaft shaftAlong(vec3 toLightW, float sine, float length, const Samples& block) 
   return shaft;
 }
 
+Shaft slabAround(const Samples& samples, const Samples::Tile& tile, const Aabb& box) {
+  Shaft shaft;
+  for (int axis = 0; axis < 3; ++axis) {
+    vec3 n(0.f);
+    n[axis] = 1.f;
+    shaft.add({n, -box.min[axis]});
+    shaft.add({-n, box.max[axis]});
+  }
+  if (!samples.planar) return shaft;
+  // What lies in the surface's own plane is half the samples' height below the slab.
+  const vec3 p = tile.boundsW.center();
+  const float half = 0.5f * liftAt(samples.boundsW.center());
+  shaft.add(planeThrough(p, samples.axis, half));
+  shaft.add(planeThrough(p, -samples.axis, half));
+  return shaft;
+}
+
 Occluders::Occluders(const World& world) : world_(world) {
   std::vector<Aabb> boxes(world.triangleCount());
   for (std::size_t i = 0; i < boxes.size(); ++i)
@@ -89,30 +106,13 @@ Occluders::Occluders(const World& world) : world_(world) {
   bvh_.build(boxes);
 }
 
+std::array<vec3, 3> Occluders::cornersOf(std::uint32_t triangle) const {
+  const std::uint32_t* corners = &world_.indices[3 * std::size_t{triangle}];
+  return {world_.positions[corners[0]], world_.positions[corners[1]], world_.positions[corners[2]]};
+}
+
 bool Occluders::anyIn(const Shaft& shaft) const {
-  const auto nodes = bvh_.nodes();
-  if (nodes.empty()) return false;
-  std::array<std::uint32_t, 128> stack;
-  std::size_t depth = 0;
-  stack[depth++] = 0;
-  while (depth > 0) {
-    const scene::Bvh::Node& node = nodes[stack[--depth]];
-    if (!shaft.mayMeet(node.box)) continue;
-    if (node.count == 0) {
-      if (depth + 2 > stack.size()) return true;  // deeper than any tree that is built
-      stack[depth++] = node.first + 1;
-      stack[depth++] = node.first;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const std::size_t triangle = bvh_.items()[node.first + i];
-      const auto corner = [&](std::size_t k) {
-        return world_.positions[world_.indices[3 * triangle + k]];
-      };
-      if (shaft.mayMeet(std::array{corner(0), corner(1), corner(2)})) return true;
-    }
-  }
-  return false;
+  return anyIn(shaft, [](std::uint32_t) { return true; });
 }
 
 }  // namespace lucerna::bake

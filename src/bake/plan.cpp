@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "bake/plan_hash.hpp"
 #include "core/text.hpp"
@@ -130,6 +131,9 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   plan.units = shareOut(plan.blocks);
   plan.groups = groupLights(scene, settings.reach);
   LUCERNA_TRY_VOID(choose(plan));
+  if (plan.alwaysOn)
+    std::ranges::copy(skyLights(settings.sky, settings.skyDirections),
+                      std::back_inserter(plan.groups[0].lights));
   plan.hash = hashOf(plan);
   addWarnings(plan);
   return plan;
@@ -143,6 +147,10 @@ vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point) {
   const PackedCharts& packed = plan.packed;
   return placedPoint(packed.packing.places[chart], packed.masks[chart].size(),
                      point - packed.least[chart]);
+}
+
+float irradianceOfWhite(const scene::Scene& scene) {
+  return kPi * std::exp2(-scene.exposure);
 }
 
 lightmap::Layout layoutOf(const Plan& plan) {

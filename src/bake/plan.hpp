@@ -26,6 +26,9 @@ struct Sampling {
   float emitterSize = 0.25f;  // of an emitting surface for one ray / its distance
 };
 
+// Of maps, beside their masters.
+enum class Encoding { Rgb9e5, Bc6h, Png };
+
 struct BakeSettings {
   Unwrap unwrap = Unwrap::Charts;
   float density = 10.f;  // texels a metre
@@ -35,8 +38,11 @@ struct BakeSettings {
   // An emitting surface reaches to where it gives a white one no more than this brightness at the
   // scene's exposure; 0: as far as `reach`.
   float faintest = 1.f / 256;
+  vec3 sky{0.f};  // radiance of all directions that meet nothing
+  int skyDirections = 256;
   std::vector<std::string> groups;  // of lights that are baked; empty: all
   Engine engine = Engine::Embree;
+  std::vector<Encoding> encodings;
 };
 
 // Blocks that are lit and stored together.
@@ -71,6 +77,9 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings);
 // A texel of a chart in the maps, and a point in the chart's texels.
 ivec2 placed(const Plan& plan, std::uint32_t chart, ivec2 texel);
 vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point);
+
+// The irradiance that a white surface shows as white at the scene's exposure.
+float irradianceOfWhite(const scene::Scene& scene);
 
 lightmap::Layout layoutOf(const Plan& plan);
 

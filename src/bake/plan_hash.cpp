@@ -50,6 +50,8 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.sampling.emitterSize);
   w(s.reach);
   w(s.faintest);
+  w(s.sky);
+  w(s.skyDirections);
   w(static_cast<int>(s.engine));
 }
 

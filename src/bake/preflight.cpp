@@ -117,6 +117,7 @@ void askLights(const Plan& plan, Preflight& result) {
   double asked = 0.;
   for (const LightGroup& group : plan.groups)
     for (const scene::PlacedLight& light : group.lights) {
+      if (light.light == scene::kNone) continue;  // of the sky
       ++result.lights;
       if (light.kind == scene::LightKind::Directional) continue;
       if (++asked > most)

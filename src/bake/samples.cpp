@@ -300,6 +300,8 @@ void ChartSampler::sample(const Block& block, Samples& samples) {
   for (const std::uint32_t triangle : triangles) findBorder(block, triangle);
   for (int y = 0; y < block.size.y; y += kTile)
     for (int x = 0; x < block.size.x; x += kTile) emitTile(block, {x, y}, samples);
+  samples.texelCount = texels;
+  samples.texelSize = 1.f / chart_.density;
   findBounds(samples, samples.triangles.empty() ? vec3(0.f) : stepsOn(samples.triangles[0]).x);
 }
 

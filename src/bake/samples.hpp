@@ -36,7 +36,9 @@ struct Samples {
     std::uint32_t first = 0, count = 0;
     Aabb boundsW;
   };
-  std::vector<Tile> tiles;  // those that have any
+  std::vector<Tile> tiles;     // those that have any
+  std::size_t texelCount = 0;  // of the block
+  float texelSize = 0.f;       // m, of a texel's side in the world
   Aabb boundsW;
   // Bounds of the normals: all lie within the angle of this cosine around the axis. -1: any.
   vec3 axis{0.f};

@@ -2,6 +2,7 @@
 // two engines that answer it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -37,7 +38,19 @@ class ShadowTracer {
   virtual void trace(const ShadowRays& rays, std::span<vec3> shares) const = 0;
 };
 
+// What Embree follows rays with, so that processors that know more give the same bits: "avx2", or
+// "sse4.2" on those that do not have it.
+const char* rayInstructionSet();
+
 // By Embree, in packets of sixteen. The world outlives it, and so below.
 std::unique_ptr<ShadowTracer> makeEmbreeTracer(const World& world);
+
+// One ray at a time through an octree, the thesis' way (spec B, section 5.1.3): the baseline.
+struct OctreeSettings {
+  std::size_t leafSize = 20;  // a cell of more triangles is cut, where that helps (octree.hpp)
+  bool mailboxes = true;      // whether a ray tests a triangle in several leaves only once
+};
+std::unique_ptr<ShadowTracer> makeOctreeTracer(const World& world,
+                                               const OctreeSettings& settings = {});
 
 }  // namespace lucerna::bake

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "bake/triangle.hpp"
 #include "core/byte_stream.hpp"
@@ -28,15 +27,14 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan) {
     case Engine::Embree:
       return makeEmbreeTracer(plan.world);
     case Engine::Octree:
-      break;
+      return makeOctreeTracer(plan.world);
   }
-  CHECK(false, "the octree is yet to come");
+  CHECK(false);
 }
 
 Emitters emittersOf(const Plan& plan) {
   if (!plan.emittersShine()) return {};
-  // What a white surface shows at the scene's exposure is the irradiance / pi * 2^EV.
-  const float white = kPi * std::exp2(-plan.world.scene->exposure);
+  const float white = irradianceOfWhite(*plan.world.scene);
   return findEmitters(plan.world, plan.charts.charts, plan.settings.faintest * white,
                       plan.settings.reach);
 }
@@ -86,6 +84,8 @@ LightScene::LightScene(const Plan& plan)
     : tracer(makeTracer(plan)),
       occluders(plan.world),
       emitters(emittersOf(plan)),
+      rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
+      chartOf(chartsOfTriangles(plan)),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
@@ -94,7 +94,8 @@ UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
                {.lightSamples = plan.settings.sampling.lightSamples,
                 .emitterSize = plan.settings.sampling.emitterSize,
                 .sceneDiagonal = scene.diagonal},
-               *plan.world.scene) {}
+               *plan.world.scene),
+      hidden_(scene.rays, scene.occluders, scene.chartOf) {}
 
 BlockLight UnitLighter::lightBlock(const Block& block) {
   const auto start = Clock::now();
@@ -104,6 +105,7 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
     chart_ = block.chart;
   }
   sampler_->sample(block, samples_);
+  hidden_.remove(samples_, block.chart);
   samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
 
   const auto count = static_cast<std::size_t>(block.size.x) * block.size.y;

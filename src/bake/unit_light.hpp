@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "bake/block_lighter.hpp"
+#include "bake/hidden.hpp"
 #include "bake/plan.hpp"
 #include "core/file.hpp"
 
@@ -34,7 +35,9 @@ struct LightScene {
   std::unique_ptr<ShadowTracer> tracer;
   Occluders occluders;
   Emitters emitters;
-  float diagonal = 0.f;  // m
+  trace::RayScene rays;
+  std::vector<std::uint32_t> chartOf;  // of each triangle
+  float diagonal = 0.f;                // m
 };
 
 // One thread's way through the units.
@@ -50,6 +53,7 @@ class UnitLighter {
 
   const Plan& plan_;
   BlockLighter lighter_;
+  HiddenSamples hidden_;
   std::optional<ChartSampler> sampler_;
   std::uint32_t chart_ = 0xffffffffu;  // of sampler_
   Samples samples_;

@@ -5,11 +5,13 @@
 #include <set>
 
 #include "bake/bake_order.hpp"
+#include "bake/make_patch.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
 #include "image/image_file.hpp"
+#include "image/ktx2.hpp"
 #include "lightmap/manifest.hpp"
 
 namespace lucerna::bake {
@@ -36,24 +38,59 @@ vec3 largestOf(const Image& map) {
   return largest;
 }
 
-Result<lightmap::MapEntry> writeMap(const BakedLight& baked, std::size_t index,
+// What viewers show: sRGB of a white surface at the scene's exposure.
+Image pictureOf(const Image& map, float white) {
+  Image picture(map.width(), map.height(), 3, ComponentType::U8);
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x)
+      for (int c = 0; c < 3; ++c)
+        picture.pixel<std::uint8_t>(x, y)[c] = static_cast<std::uint8_t>(
+            255.f * srgbFromLinear(floatFromHalf(map.pixel<std::uint16_t>(x, y)[c]) / white) +
+            0.5f);
+  return picture;
+}
+
+Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding encoding,
+                               const fs::path& folder, float white) {
+  switch (encoding) {
+    case Encoding::Rgb9e5:
+      return write(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
+                   encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
+    case Encoding::Bc6h:
+      return write(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
+                   encodeKtx2({&map, 1}, HdrFormat::Bc6h));
+    case Encoding::Png:
+      break;
+  }
+  const std::string name = fmt::format("map-{:03}.png", index);
+  LUCERNA_TRY(bytes, encodeImage(folder / name, pictureOf(map, white)));
+  return write(folder, name, bytes);
+}
+
+Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, std::size_t index,
                                     const fs::path& folder) {
   const std::string name = fmt::format("map-{:03}.exr", index);
   LUCERNA_TRY(bytes, encodeImage(folder / name, baked.maps[index]));
   lightmap::MapEntry entry;
   LUCERNA_TRY(master, write(folder, name, bytes));
   entry.master = std::move(master);
+  for (const Encoding encoding : plan.settings.encodings) {
+    LUCERNA_TRY(encoded, writeEncoded(baked.maps[index], index, encoding, folder,
+                                      irradianceOfWhite(*plan.world.scene)));
+    entry.encoded.push_back(std::move(encoded));
+  }
   entry.largest = largestOf(baked.maps[index]);
   entry.texels = static_cast<std::uint64_t>(std::ranges::count(baked.texels.touched[index], true));
   return entry;
 }
 
-Status writeMaps(const BakedLight& baked, const fs::path& folder, Manifest& manifest) {
+Status writeMaps(const Plan& plan, const BakedLight& baked, const fs::path& folder,
+                 Manifest& manifest) {
   std::vector<std::optional<Result<lightmap::MapEntry>>> entries(baked.maps.size());
   Progress progress("writing maps", baked.maps.size());
   parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      entries[i] = writeMap(baked, i, folder);
+      entries[i] = writeMap(plan, baked, i, folder);
       progress.advance();
     }
   });
@@ -64,11 +101,72 @@ Status writeMaps(const BakedLight& baked, const fs::path& folder, Manifest& mani
   return {};
 }
 
+// What is factored out of a group's light: its lights' common colour; else their sum, which only
+// scales what is stored.
+vec3 colorOf(const LightGroup& group) {
+  vec3 sum(0.f);
+  for (const scene::PlacedLight& light : group.lights) sum += light.intensity;
+  return group.lights.empty() ? vec3(1.f) : sum / static_cast<float>(group.lights.size());
+}
+
+// The texels that a lookup may meet: on the scene, and the filled ones beside them.
+std::vector<std::vector<bool>> usedTexels(const MapTexels& texels) {
+  std::vector<std::vector<bool>> used = texels.touched;
+  const int side = texels.side;
+  for (std::size_t map = 0; map < used.size(); ++map)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        if (texels.isBeside(static_cast<int>(map), {x, y}))
+          used[map][static_cast<std::size_t>(y) * side + x] = true;
+  return used;
+}
+
+MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<const LitTexel> lit,
+                    float white) {
+  std::vector<PatchTexel> texels;
+  texels.reserve(lit.size());
+  for (const LitTexel& t : lit)
+    texels.push_back(
+        {.map = t.map,
+         .x = t.x,
+         .y = t.y,
+         .value = {floatFromHalf(t.rgb[0]), floatFromHalf(t.rgb[1]), floatFromHalf(t.rgb[2])}});
+  // A quarter of what can be seen at once, as several groups may add up.
+  return maker.make({.group = group.name, .color = colorOf(group), .texels = texels},
+                    {.light = white / 1024.f, .black = white / 16384.f});
+}
+
+Status writePatches(const Plan& plan, const BakedLight& baked, const fs::path& folder,
+                    Manifest& manifest) {
+  if (plan.groups.size() < 2) return {};
+  const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
+  const lightmap::Layout layout = layoutOf(plan);
+  const PatchMaker maker(layout, used);
+  const float white = irradianceOfWhite(*plan.world.scene);
+  std::vector<MadePatch> made(plan.groups.size());
+  parallelFor(made.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin + 1; i < end + 1; ++i)
+      made[i] = makePatch(maker, plan.groups[i], baked.groups[i], white);
+  });
+  for (std::size_t i = 1; i < made.size(); ++i) {
+    lightmap::PatchEntry entry;
+    entry.group = plan.groups[i].name;
+    LUCERNA_TRY(file, write(folder, fmt::format("patch-{:03}.bin", i - 1), made[i].bytes));
+    entry.patch = std::move(file);
+    entry.form = made[i].patch.form();
+    entry.bytes = made[i].bytes.size();
+    entry.otherBytes = made[i].otherBytes;
+    manifest.patches.push_back(std::move(entry));
+  }
+  return {};
+}
+
 void describeScene(const Plan& plan, Manifest& manifest) {
   const scene::Scene& scene = *plan.world.scene;
   manifest.scene = scene.name;
   manifest.sceneHash = lightmap::hashText16(plan.hash);
   manifest.settings = settingsText(plan.settings);
+  manifest.processor = rayInstructionSet();
   manifest.side = plan.settings.pack.side;
   manifest.density = plan.settings.density;
   for (const WorldObject& object : plan.world.objects)
@@ -85,8 +183,9 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   for (lightmap::ObjectEntry& object : manifest.objects) std::ranges::sort(object.maps);
   for (const LightGroup& group : plan.groups)
     for (const scene::PlacedLight& light : group.lights)
-      manifest.lights.push_back(
-          {.name = scene.lights[light.light].name, .group = group.name, .light = light.light});
+      if (light.light != scene::kNone)
+        manifest.lights.push_back(
+            {.name = scene.lights[light.light].name, .group = group.name, .light = light.light});
 }
 
 std::set<std::string> namesIn(const Manifest& manifest) {
@@ -119,7 +218,8 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   describeScene(plan, manifest);
   LUCERNA_TRY(layout, write(folder, "layout.bin", lightmap::toBytes(layoutOf(plan))));
   manifest.layout = std::move(layout);
-  LUCERNA_TRY_VOID(writeMaps(baked, folder, manifest));
+  LUCERNA_TRY_VOID(writeMaps(plan, baked, folder, manifest));
+  LUCERNA_TRY_VOID(writePatches(plan, baked, folder, manifest));
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / "manifest.json", lightmap::toJson(manifest)));

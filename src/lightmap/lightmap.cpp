@@ -68,6 +68,11 @@ Result<Lightmap> readLightmap(const std::filesystem::path& folder) {
     LUCERNA_TRY(image, readMap(folder, lightmap.manifest, i));
     lightmap.maps.push_back(std::move(image));
   }
+  for (const PatchEntry& entry : lightmap.manifest.patches) {
+    LUCERNA_TRY(bytes, readEntry(folder, entry.patch));
+    LUCERNA_TRY(patch, patchFrom(bytes, (folder / entry.patch.file).string()));
+    lightmap.patches.push_back(std::move(patch));
+  }
   return lightmap;
 }
 

@@ -7,6 +7,7 @@
 #include "image/image.hpp"
 #include "lightmap/layout.hpp"
 #include "lightmap/manifest.hpp"
+#include "lightmap/patch.hpp"
 
 namespace lucerna::lightmap {
 
@@ -15,6 +16,7 @@ struct Lightmap {
   Layout layout;
   std::vector<Image>
       maps;  // F32 RGB, irradiance (scene/light.hpp) of all lights that are always on
+  std::vector<Patch> patches;  // as Manifest::patches: the groups that switch
 };
 
 // Errors (ErrorKind::Input) name the file: missing, damaged (its bytes have another hash than the

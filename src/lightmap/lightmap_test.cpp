@@ -105,9 +105,8 @@ TEST(Manifest, NoOtherByteIsTakenForIt) {
     std::string flipped = text;
     flipped[i] = static_cast<char>(flipped[i] ^ 1);
     for (const std::string& damaged : {without, flipped, text.substr(0, i)}) {
-      Result<Manifest> read = manifestFrom(damaged, "manifest.json");
+      const Result<Manifest> read = manifestFrom(damaged, "manifest.json");
       if (!read) continue;
-      read->settings = smallManifest().settings;  // which are not read
       EXPECT_EQ(toJson(*read), text) << i << ": only white space differs";
     }
   }

@@ -150,11 +150,9 @@ std::string hashOf(const Json& document) {
 }
 
 // Of what is said, however it is spaced; a manifest without one is anybody's own.
-void checkHash(const JsonValue& root, std::string_view text) {
+void checkHash(const JsonValue& root, Json document) {
   std::string wanted;
   if (!root.read("hash", wanted)) return;
-  Json document = Json::parse(text, nullptr, false, true);
-  if (!document.is_object()) return;
   document.erase("hash");
   if (const std::string found = hashOf(document); found != wanted)
     root.at("hash").fault(fmt::format(
@@ -215,7 +213,11 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
   readList(root, "patches", m.patches);
   readList(root, "objects", m.objects);
   readList(root, "lights", m.lights);
-  checkHash(root, text);
+  // As a whole, too; one that JsonDocument takes is an object here.
+  const Json whole = Json::parse(text, nullptr, false, true);
+  if (whole.contains("settings"))
+    m.settings = whole["settings"].dump(1, ' ', false, Json::error_handler_t::replace);
+  checkHash(root, whole);
   LUCERNA_TRY_VOID(document.status());
   return m;
 }

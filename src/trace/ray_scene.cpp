@@ -18,8 +18,9 @@ void report(void*, RTCError code, const char* message) {
   CHECK(false, "Embree reports error {}: {}", static_cast<int>(code), message ? message : "");
 }
 
-RTCDevice makeDevice() {
-  RTCDevice device = rtcNewDevice(nullptr);
+RTCDevice makeDevice(const std::string& instructionSet) {
+  const std::string config = instructionSet.empty() ? "" : "isa=" + instructionSet;
+  RTCDevice device = rtcNewDevice(config.c_str());
   CHECK(device, "Embree makes no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
   rtcSetDeviceErrorFunction(device, report, nullptr);
   return device;
@@ -34,7 +35,7 @@ struct Context {
   const MaterialLookup& lookup;
   // Of the packet under way, one a lane.
   vec3* shares = nullptr;
-  const Passed* passed = nullptr;
+  std::span<const Passed> passed;
 };
 
 Spot spotOf(RTCHitN* hit, unsigned count, unsigned lane) {
@@ -56,9 +57,11 @@ void passedFilter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] != -1) continue;
-    const Passed& passed = context.passed[RTCRayN_id(args->ray, args->N, lane)];
-    if (passed.has(RTCHitN_instID(args->hit, args->N, lane, 0),
-                   RTCHitN_primID(args->hit, args->N, lane)))
+    // Embree 3.13.5 asks about lanes without a ray, too.
+    const unsigned id = RTCRayN_id(args->ray, args->N, lane);
+    if (id >= context.passed.size()) continue;
+    if (context.passed[id].has(RTCHitN_instID(args->hit, args->N, lane, 0),
+                               RTCHitN_primID(args->hit, args->N, lane)))
       args->valid[lane] = 0;
   }
 }
@@ -107,8 +110,8 @@ void setRays(Packet& packet, std::span<const Ray> rays, std::array<int, kPacket>
 }  // namespace
 
 struct RayScene::Impl {
-  Impl(const scene::Scene& scene, const mat4& viewFromWorld)
-      : lookup(scene, viewFromWorld), device(makeDevice()) {
+  Impl(const scene::Scene& scene, const mat4& viewFromWorld, const std::string& instructionSet)
+      : lookup(scene, viewFromWorld), device(makeDevice(instructionSet)) {
     top = newScene();
     std::vector<bool> filtered(scene.meshes.size());
     for (const scene::Object& object : scene.objects)
@@ -193,8 +196,9 @@ bool Passed::has(std::uint32_t object, std::uint32_t triangle) const {
                      [&](const Triangle& t) { return t.object == object && t.index == triangle; });
 }
 
-RayScene::RayScene(const scene::Scene& scene, const mat4& viewFromWorld)
-    : impl_(std::make_unique<Impl>(scene, viewFromWorld)) {}
+RayScene::RayScene(const scene::Scene& scene, const mat4& viewFromWorld,
+                   const std::string& instructionSet)
+    : impl_(std::make_unique<Impl>(scene, viewFromWorld, instructionSet)) {}
 
 RayScene::~RayScene() = default;
 
@@ -213,7 +217,7 @@ void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits,
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     setRays(packet.ray, rays.subspan(first, count), valid);
-    if (!passed.empty()) context.passed = &passed[first];
+    if (!passed.empty()) context.passed = passed.subspan(first, count);
     std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
     std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
     rtcIntersect16(valid.data(), impl_->top, &context.embree, &packet);
@@ -232,15 +236,17 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<vec3> shares) 
   Context context(impl_->lookup);
   alignas(64) RTCRay16 packet;
   alignas(64) std::array<int, kPacket> valid;
+  // For lanes without a ray as well: Embree 3.13.5 asks the filter about some of them.
+  std::array<vec3, kPacket> through;
+  context.shares = through.data();
   prepare(packet);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
     setRays(packet, rays.subspan(first, count), valid);
-    context.shares = &shares[first];
-    std::fill_n(context.shares, count, vec3(1.f));
+    through.fill(vec3(1.f));
     rtcOccluded16(valid.data(), impl_->top, &context.embree, &packet);
-    for (std::size_t i = 0; i < count; ++i)
-      if (packet.tfar[i] < 0.f) shares[first + i] = vec3(0.f);  // Embree's mark
+    for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
+      shares[first + i] = packet.tfar[i] < 0.f ? vec3(0.f) : through[i];
   }
 }
 

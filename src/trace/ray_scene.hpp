@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "scene/scene.hpp"
 #include "trace/material_lookup.hpp"
@@ -49,8 +50,9 @@ class Passed {
 class RayScene {
  public:
   // The scene outlives it and stays as it is. viewFromWorld: of the eye that generated texture
-  // coordinates follow.
-  RayScene(const scene::Scene& scene, const mat4& viewFromWorld);
+  // coordinates follow. instructionSet: "avx2", "sse4.2", ...; "": the best there is.
+  RayScene(const scene::Scene& scene, const mat4& viewFromWorld,
+           const std::string& instructionSet = "");
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;

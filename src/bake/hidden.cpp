@@ -1,0 +1,165 @@
+#include "bake/hidden.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "trace/light_sampling.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+using Tile = Samples::Tile;
+
+// Around the normal, none of them along it or along an axis of the scene's, where rays meet edges.
+std::array<vec3, 5> directionsAround(vec3 normal) {
+  const trace::Frame frame(normal);
+  std::array<vec3, 5> directions{glm::normalize(frame.toWorld({0.05f, 0.03f, 1.f}))};
+  for (int i = 0; i < 4; ++i) {
+    const float angle = 0.3f + 0.5f * kPi * static_cast<float>(i);
+    directions[static_cast<std::size_t>(i) + 1] =
+        glm::normalize(frame.toWorld({std::cos(angle), std::sin(angle), 0.9f}));
+  }
+  return directions;
+}
+
+vec3 positionAt(const Samples& s, std::size_t i) {
+  return {s.x[i], s.y[i], s.z[i]};
+}
+
+// A thin box around the tile's samples: what crosses it may cover some of them.
+Aabb around(const Tile& tile, float texel) {
+  // Half a texel to each side, as a texel reaches beyond its sample.
+  return {tile.boundsW.min - 0.71f * texel, tile.boundsW.max + 0.71f * texel};
+}
+
+// Keeps the entries whose bit is not set.
+template <typename T>
+void removeWhere(std::vector<T>& list, const std::vector<bool>& gone) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < list.size(); ++i)
+    if (!gone[i]) list[kept++] = list[i];
+  list.resize(kept);
+}
+
+void removeWhere(Samples& s, const std::vector<bool>& gone) {
+  for (auto* list : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.areas}) removeWhere(*list, gone);
+  removeWhere(s.texels, gone);
+  removeWhere(s.triangles, gone);
+  removeWhere(s.barycentrics, gone);
+  std::uint32_t before = 0;  // of the samples so far, that are gone
+  std::vector<Tile> tiles;
+  for (Tile tile : s.tiles) {
+    const auto first = gone.begin() + tile.first;
+    const auto count = static_cast<std::uint32_t>(std::count(first, first + tile.count, true));
+    tile.first -= before;
+    tile.count -= count;
+    before += count;
+    if (tile.count > 0) tiles.push_back(tile);
+  }
+  s.tiles = std::move(tiles);
+}
+
+}  // namespace
+
+HiddenSamples::HiddenSamples(const trace::RayScene& rays, const Occluders& occluders,
+                             const std::vector<std::uint32_t>& chartOf)
+    : rays_(rays), occluders_(occluders), chartOf_(chartOf) {}
+
+// Sets hidden_ of these samples.
+void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> which) {
+  asked_.clear();
+  for (const std::uint32_t i : which)
+    for (const vec3 direction : directionsAround({samples.nx[i], samples.ny[i], samples.nz[i]}))
+      asked_.push_back({.originW = positionAt(samples, i), .directionW = direction});
+  hits_.resize(asked_.size());
+  rays_.closest(asked_, hits_);
+  const trace::MaterialLookup& lookup = rays_.lookup();
+  constexpr std::size_t kRays = 5;
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    bool inside = true;
+    for (std::size_t r = kRays * k; r < kRays * (k + 1) && inside; ++r) {
+      const trace::Hit& hit = hits_[r];
+      inside = hit.any() && !lookup.frontFacing(hit.spot, asked_[r].directionW);
+      if (!inside) break;
+      const scene::Material& material = lookup.materialOf(hit.spot.object);
+      inside = !material.doubleSided && material.alphaMode == scene::AlphaMode::Opaque;
+    }
+    hidden_[which[k]] = inside;
+  }
+}
+
+// Of each texel of the tile the samples that are left and do not see the first of them.
+void HiddenSamples::separate(const Samples& samples, const Tile& tile) {
+  which_.clear();
+  asked_.clear();
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count;) {
+    std::uint32_t first = scene::kNone;
+    const std::uint16_t texel = samples.texels[i];
+    for (; i < tile.first + tile.count && samples.texels[i] == texel; ++i) {
+      if (hidden_[i]) continue;
+      if (first == scene::kNone) {
+        first = i;
+        continue;
+      }
+      which_.push_back(i);
+      const vec3 from = positionAt(samples, first);
+      asked_.push_back({.originW = from, .directionW = positionAt(samples, i) - from, .far = 1.f});
+    }
+  }
+  if (which_.empty()) return;
+  shares_.resize(asked_.size());
+  rays_.transmittance(asked_, shares_);
+  for (std::size_t k = 0; k < which_.size(); ++k)
+    if (shares_[k] == vec3(0.f)) hidden_[which_[k]] = true;
+}
+
+void HiddenSamples::remove(Samples& samples, std::uint32_t chart) {
+  if (samples.size() == 0) return;
+  hidden_.assign(samples.size(), false);
+  const auto isCrossed = [&](const Tile& tile) {
+    return occluders_.anyIn(slabAround(samples, tile, around(tile, samples.texelSize)),
+                            [&](std::uint32_t triangle) { return chartOf_[triangle] != chart; });
+  };
+  // Where nothing crosses the surface, all samples are as the first is.
+  crossed_.clear();
+  which_.clear();
+  const Tile all{
+      .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
+  const bool anyCrossed = isCrossed(all);
+  if (!anyCrossed) which_.push_back(0);
+  if (anyCrossed)
+    for (const Tile& tile : samples.tiles) {
+      const bool crossed = isCrossed(tile);
+      if (crossed) crossed_.push_back(tile);
+      for (std::uint32_t i = 0; i < (crossed ? tile.count : 1); ++i)
+        which_.push_back(tile.first + i);
+    }
+  ask(samples, which_);
+  const auto spread = [&](const Tile& tile) {
+    if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
+  };
+  if (!anyCrossed) spread(all);
+  std::size_t next = 0;  // of crossed_
+  if (anyCrossed)
+    for (const Tile& tile : samples.tiles) {
+      const bool crossed = next < crossed_.size() && crossed_[next].first == tile.first;
+      if (crossed)
+        separate(samples, crossed_[next++]);
+      else
+        spread(tile);
+    }
+  if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
+}
+
+std::vector<std::uint32_t> chartsOfTriangles(const Plan& plan) {
+  std::vector<std::uint32_t> charts(plan.world.triangleCount(), scene::kNone);
+  for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i) {
+    const Chart& chart = plan.charts.charts[i];
+    const std::uint32_t first = plan.world.objects[chart.object].firstTriangle;
+    for (const std::uint32_t triangle : chart.triangles) charts[first + triangle] = i;
+  }
+  return charts;
+}
+
+}  // namespace lucerna::bake

@@ -1,0 +1,44 @@
+// Samples where nobody sees the surface: inside of solids that stand on it or cut through it. They
+// would be dark, and their texels would darken what is seen beside them.
+#pragma once
+
+#include <vector>
+
+#include "bake/occluders.hpp"
+#include "bake/plan.hpp"
+#include "bake/samples.hpp"
+#include "trace/ray_scene.hpp"
+
+namespace lucerna::bake {
+
+// One thread's. What it finds does not depend on the order of blocks.
+class HiddenSamples {
+ public:
+  // All outlive it. chartOf: of each triangle of the world.
+  HiddenSamples(const trace::RayScene& rays, const Occluders& occluders,
+                const std::vector<std::uint32_t>& chartOf);
+
+  // Takes out the samples that are inside of a solid: around them, all that rays meet first are
+  // the backs of opaque one-sided surfaces. Of a texel that something cuts in two those are left
+  // that see its first one.
+  void remove(Samples& samples, std::uint32_t chart);
+
+ private:
+  void ask(const Samples& samples, std::span<const std::uint32_t> which);
+  void separate(const Samples& samples, const Samples::Tile& tile);
+
+  const trace::RayScene& rays_;
+  const Occluders& occluders_;
+  const std::vector<std::uint32_t>& chartOf_;
+  std::vector<bool> hidden_;  // of the samples under way
+  std::vector<std::uint32_t> which_;
+  std::vector<Samples::Tile> crossed_;
+  std::vector<trace::Ray> asked_;
+  std::vector<trace::Hit> hits_;
+  std::vector<vec3> shares_;
+};
+
+// Of each triangle of the world: the plan's chart that it is in, or kNone.
+std::vector<std::uint32_t> chartsOfTriangles(const Plan& plan);
+
+}  // namespace lucerna::bake
