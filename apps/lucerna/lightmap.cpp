@@ -269,6 +269,8 @@ Result<int> inspect(const Options& options, bool json) {
   LUCERNA_TRY(layout, lightmap::readLayout(options.folder, all.manifest));
   all.layout = std::move(layout);
   LUCERNA_TRY_VOID(readPatches(all, options.folder));
+  for (const lightmap::FileEntry& entry : all.manifest.gltf)
+    LUCERNA_TRY_VOID(lightmap::checkEntry(options.folder, entry));
   LUCERNA_TRY_VOID(readScene(all, options));
   LUCERNA_TRY_VOID(makeFolder(options.output));
   Progress progress("looking at maps", all.manifest.maps.size());

@@ -42,7 +42,8 @@ Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene)
   return {};
 }
 
-// Their ambient light is in no map.
+// Ambient light is in no map. The light that a scene without any is given goes, with its ambient
+// light: the maps have taken its place.
 void switchOffBakedLights(scene::Scene& scene, const lightmap::Manifest& manifest,
                           const std::vector<std::string>& lightsOff) {
   for (const lightmap::LightEntry& entry : manifest.lights) {
@@ -51,6 +52,9 @@ void switchOffBakedLights(scene::Scene& scene, const lightmap::Manifest& manifes
       scene.ambient += scene::place(light, mat4(1.f)).ambient;
     light.on = false;
   }
+  if (scene.headlight == scene::kNone) return;
+  scene.lights[scene.headlight].on = false;
+  scene.ambient = vec3(0.f);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "bake/curved_charts.hpp"
+#include "bake/own_unwrap.hpp"
 #include "bake/pair_charts.hpp"
 #include "core/check.hpp"
 #include "core/parallel.hpp"
@@ -70,6 +71,14 @@ void shrink(Chart& chart, int mostSide) {
   chart.density *= factor;
 }
 
+// Whether each triangle by itself has room in a map.
+bool allFit(const Chart& chart, int mostSide) {
+  return std::ranges::all_of(chart.corners, [&](const std::array<vec2, 3>& t) {
+    const vec2 size = glm::max(glm::max(t[0], t[1]), t[2]) - glm::min(glm::min(t[0], t[1]), t[2]);
+    return std::max(size.x, size.y) <= static_cast<float>(mostSide);
+  });
+}
+
 // Adds the chart, or what it must be cut into to fit.
 void add(Charts& result, Chart chart, int mostSide) {
   settle(chart);
@@ -78,7 +87,7 @@ void add(Charts& result, Chart chart, int mostSide) {
     return;
   }
   Chart low, high;
-  if (cut(chart, low, high)) {
+  if (allFit(chart, mostSide) && cut(chart, low, high)) {
     add(result, std::move(low), mostSide);
     add(result, std::move(high), mostSide);
     return;
@@ -114,6 +123,23 @@ void addTriangle(Chart& chart, const WorldObject& object, std::uint32_t triangle
   for (vec2& corner : corners) corner *= chart.density;
   chart.triangles.push_back(triangle);
   chart.corners.push_back(corners);
+}
+
+// False if the object's mesh brings no coordinates that can be used.
+bool addOwn(Charts& result, const World& world, std::uint32_t index,
+            const ChartSettings& settings) {
+  std::variant<Chart, std::string> own = ownUnwrap(world, index, settings);
+  if (Chart* chart = std::get_if<Chart>(&own)) {
+    result.charts.push_back(std::move(*chart));
+    ++result.own;
+    return true;
+  }
+  if (const std::string& why = std::get<std::string>(own); !why.empty()) {
+    const scene::Object& object = world.scene->objects[world.objects[index].object];
+    result.unsound.push_back(fmt::format("'{}': TEXCOORD_1 is not used as {}",
+                                         world.scene->nodes[object.node].name, why));
+  }
+  return false;
 }
 
 void addCurved(Charts& result, const World& world, std::uint32_t index,
@@ -164,14 +190,19 @@ Charts makeCharts(const World& world, const ChartSettings& settings) {
   parallelFor(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       if (!world.objects[i].receives) continue;
-      const auto add = settings.unwrap == Unwrap::Pairs ? addPairs : addCurved;
-      add(parts[i], world, static_cast<std::uint32_t>(i), settings);
+      const auto index = static_cast<std::uint32_t>(i);
+      if (settings.unwrap == Unwrap::Pairs)
+        addPairs(parts[i], world, index, settings);
+      else if (!addOwn(parts[i], world, index, settings))
+        addCurved(parts[i], world, index, settings);
     }
   });
   Charts result;
   for (Charts& part : parts) {
     result.degenerate += part.degenerate;
     result.shrunk += part.shrunk;
+    result.own += part.own;
+    std::ranges::move(part.unsound, std::back_inserter(result.unsound));
     std::ranges::move(part.charts, std::back_inserter(result.charts));
   }
   return result;

@@ -18,7 +18,10 @@ enum class Unwrap {
 struct ChartSettings {
   Unwrap unwrap = Unwrap::Charts;
   float density = 10.f;  // texels a metre
-  int mostSide = 2048;   // texels; what is larger is cut, and a single triangle made smaller
+  int gap = 2;           // texels between parts of meshes that bring their own coordinates
+  // Texels. Larger charts are cut between triangles; one with a triangle that is larger has fewer
+  // texels a metre.
+  int mostSide = 2048;
 };
 
 // The texel (x, y) covers the square from (x, y) to (x + 1, y + 1).
@@ -31,9 +34,11 @@ struct Chart {
 };
 
 struct Charts {
-  std::vector<Chart> charts;     // in the order of objects
-  std::uint64_t degenerate = 0;  // triangles without an area, or not finite; in no chart
-  std::uint64_t shrunk = 0;      // charts of one triangle that had to become smaller to fit
+  std::vector<Chart> charts;         // in the order of objects
+  std::uint64_t degenerate = 0;      // triangles without an area, or not finite; in no chart
+  std::uint64_t own = 0;             // objects that bring a set of coordinates that serves
+  std::vector<std::string> unsound;  // why those that others bring do not, a sentence each
+  std::uint64_t shrunk = 0;          // charts that had to get fewer texels a metre to fit
 };
 
 // Depends on each object alone: an edit of one changes no chart of another.

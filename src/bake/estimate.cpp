@@ -125,13 +125,13 @@ void extrapolate(const Plan& plan, const std::vector<Measured>& found, Estimate&
                                                    static_cast<double>(sum.litTexels));
 }
 
-// Half floats of all maps, a bit for each texel, and on each thread what encodes one map: a copy,
-// and a file that grows.
+// Half floats of all maps, two bits for each texel, and on each thread what encodes one map: its
+// floats, and a file that grows.
 std::uint64_t mapBytes(const Plan& plan) {
   const auto side = static_cast<std::uint64_t>(plan.settings.pack.side);
   const auto maps = static_cast<std::uint64_t>(plan.packed.packing.maps);
   const auto encoders = std::min<std::uint64_t>(maps, static_cast<std::uint64_t>(threadCount()));
-  return side * side * 6 * (maps + 3 * encoders) + side * side / 8 * maps;
+  return side * side * (6 * maps + 20 * encoders) + side * side / 4 * maps;
 }
 
 }  // namespace

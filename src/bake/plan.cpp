@@ -91,9 +91,15 @@ void addWarnings(Plan& plan) {
   if (charts.degenerate > 0)
     plan.warnings.push_back(fmt::format(
         "{} triangles have no area or are not finite and get no light", charts.degenerate));
+  constexpr std::size_t kMostNamed = 5;
+  for (std::size_t i = 0; i < std::min(charts.unsound.size(), kMostNamed); ++i)
+    plan.warnings.push_back(charts.unsound[i]);
+  if (charts.unsound.size() > kMostNamed)
+    plan.warnings.push_back(fmt::format("TEXCOORD_1 of {} more objects is not used",
+                                        charts.unsound.size() - kMostNamed));
   if (charts.shrunk > 0)
     plan.warnings.push_back(fmt::format(
-        "{} triangles are larger than a map and have fewer texels a metre; larger maps (--size) or "
+        "{} charts are larger than a map and have fewer texels a metre; larger maps (--size) or "
         "a lower --density would hold them",
         charts.shrunk));
   const bool dark =

@@ -6,6 +6,7 @@
 
 #include "bake/bake_order.hpp"
 #include "bake/make_patch.hpp"
+#include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
@@ -216,10 +217,12 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   const std::set<std::string> before = namesBefore(folder);
   Manifest manifest;
   describeScene(plan, manifest);
-  LUCERNA_TRY(layout, write(folder, "layout.bin", lightmap::toBytes(layoutOf(plan))));
-  manifest.layout = std::move(layout);
+  const lightmap::Layout layout = layoutOf(plan);
+  LUCERNA_TRY(entry, write(folder, "layout.bin", lightmap::toBytes(layout)));
+  manifest.layout = std::move(entry);
   LUCERNA_TRY_VOID(writeMaps(plan, baked, folder, manifest));
   LUCERNA_TRY_VOID(writePatches(plan, baked, folder, manifest));
+  LUCERNA_TRY_VOID(writeGltf(plan, baked, layout, folder, manifest.gltf));
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / "manifest.json", lightmap::toJson(manifest)));

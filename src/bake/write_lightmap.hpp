@@ -1,4 +1,4 @@
-// A finished bake as files: maps, layout, manifest.
+// A finished bake as files: maps, layout, a copy of the scene as glTF, manifest.
 #pragma once
 
 #include <filesystem>

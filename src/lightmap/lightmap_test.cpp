@@ -67,7 +67,8 @@ Manifest smallManifest() {
                        .bytes = 10,
                        .otherBytes = 20}},
           .objects = {{.node = "box", .object = 3, .charts = 6, .maps = {0}}},
-          .lights = {{.name = "lamp", .group = "lamps", .light = 4}}};
+          .lights = {{.name = "lamp", .group = "lamps", .light = 4}},
+          .gltf = {{"scene.gltf", hashText16(6)}, {"scene.bin", hashText16(7)}}};
 }
 
 TEST(Manifest, TextAndBack) {
@@ -84,6 +85,9 @@ TEST(Manifest, TextAndBack) {
   EXPECT_EQ(back->patches.at(0).otherBytes, 20u);
   EXPECT_EQ(back->objects.at(0).maps, std::vector<int>{0});
   EXPECT_EQ(back->lights.at(0).light, 4u);
+  ASSERT_EQ(back->gltf.size(), 2u);
+  EXPECT_EQ(back->gltf[0].file, "scene.gltf");
+  EXPECT_EQ(back->gltf[1].hash, hashText16(7));
 }
 
 TEST(Manifest, WhatHasNoNameComesBackWithoutOne) {
@@ -127,11 +131,13 @@ TEST(Manifest, SaysEveryFault) {
   Manifest manifest = smallManifest();
   manifest.layout.file = "../layout.bin";
   manifest.maps[0].master.hash = "none";
+  manifest.gltf[0].file = "a/scene.gltf";
   const Result<Manifest> read = manifestFrom(toJson(manifest), "manifest.json");
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().kind, ErrorKind::Input);
   EXPECT_NE(read.error().message.find("beside the manifest"), std::string::npos);
   EXPECT_NE(read.error().message.find("hexadecimal"), std::string::npos);
+  EXPECT_NE(read.error().message.find("/gltf/0/file"), std::string::npos);
 }
 
 // A folder with everything in place.
@@ -139,6 +145,7 @@ class BakedFolder : public ::testing::Test {
  protected:
   void SetUp() override {
     Manifest manifest = smallManifest();
+    manifest.patches.clear();
     Layout layout = smallLayout();
     layout.maps = 1;
     layout.objects[1].pop_back();

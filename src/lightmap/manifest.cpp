@@ -78,7 +78,7 @@ void readFileEntry(const JsonValue& value, FileEntry& entry) {
   value.require({"file", "hash"});
 }
 
-void readOnlyFile(const JsonValue& value, FileEntry& entry) {
+void readEntry(const JsonValue& value, FileEntry& entry) {
   if (value.object({"file", "hash"})) readFileEntry(value, entry);
 }
 
@@ -95,10 +95,10 @@ void readIndex(const JsonValue& value, const char* key, std::uint32_t& out) {
 void readEntry(const JsonValue& value, MapEntry& map) {
   if (!value.object({"master", "encoded", "largest", "texels"})) return;
   value.require({"master"});
-  if (value.has("master")) readOnlyFile(value.at("master"), map.master);
+  if (value.has("master")) readEntry(value.at("master"), map.master);
   if (value.has("encoded"))
     for (const JsonValue& encoded : value.at("encoded").elements())
-      readOnlyFile(encoded, map.encoded.emplace_back());
+      readEntry(encoded, map.encoded.emplace_back());
   value.read("largest", map.largest, kNotNegative);
   readCount(value, "texels", map.texels);
 }
@@ -173,6 +173,7 @@ std::vector<FileEntry> filesOf(const Manifest& manifest) {
     files.insert(files.end(), map.encoded.begin(), map.encoded.end());
   }
   for (const PatchEntry& patch : manifest.patches) files.push_back(patch.patch);
+  files.insert(files.end(), manifest.gltf.begin(), manifest.gltf.end());
   return files;
 }
 
@@ -188,6 +189,7 @@ std::string toJson(const Manifest& m) {
   document["patches"] = list(m.patches);
   document["objects"] = list(m.objects);
   document["lights"] = list(m.lights);
+  document["gltf"] = list(m.gltf);
   document["hash"] = hashOf(document);
   return textOf(document);
 }
@@ -197,7 +199,7 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
   const JsonValue root = document.root();
   Manifest m;
   if (!root.object({"lucerna", "scene", "settings", "processor", "side", "density", "layout",
-                    "maps", "patches", "objects", "lights", "hash"}))
+                    "maps", "patches", "objects", "lights", "gltf", "hash"}))
     return document.status().error();
   root.format(kFormat);
   root.require({"lucerna", "scene", "side", "layout", "maps"});
@@ -208,11 +210,12 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
   root.read("processor", m.processor);
   root.readInteger("side", m.side, 1, 32768);
   root.read("density", m.density, {0.f, 1e6f, "texels/m"});
-  if (root.has("layout")) readOnlyFile(root.at("layout"), m.layout);
+  if (root.has("layout")) readEntry(root.at("layout"), m.layout);
   readList(root, "maps", m.maps);
   readList(root, "patches", m.patches);
   readList(root, "objects", m.objects);
   readList(root, "lights", m.lights);
+  readList(root, "gltf", m.gltf);
   // As a whole, too; one that JsonDocument takes is an object here.
   const Json whole = Json::parse(text, nullptr, false, true);
   if (whole.contains("settings"))

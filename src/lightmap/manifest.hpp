@@ -53,6 +53,7 @@ struct Manifest {
   std::vector<PatchEntry> patches;
   std::vector<ObjectEntry> objects;
   std::vector<LightEntry> lights;
+  std::vector<FileEntry> gltf;  // the copy of the scene, and pictures that only it names
 };
 
 // All files that it names.

@@ -112,7 +112,7 @@ class BakeTest(unittest.TestCase):
         named = {"manifest.json", manifest["layout"]["file"]}
         for entry in manifest["maps"]:
             named |= {entry["master"]["file"], *(each["file"] for each in entry["encoded"])}
-        named |= {each["file"] for each in manifest["patches"]}
+        named |= {each["file"] for each in [*manifest["patches"], *manifest["gltf"]]}
         self.assertEqual(set(found), named)
         self.assertEqual([path for path in (self.folder / folder).iterdir() if path.is_dir()], [])
         return found
