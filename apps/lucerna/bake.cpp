@@ -6,14 +6,23 @@
 #include <map>
 #include <memory>
 
+#include "bake/bake_order.hpp"
+#include "bake/estimate.hpp"
+#include "bake/preflight.hpp"
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
-#include "core/progress.hpp"
+#include "core/text.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::cli {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 struct Options {
   std::string scene, folder, preset = "standard";
@@ -98,35 +107,122 @@ void sayReport(const bake::BakeReport& report) {
       c.shadingSeconds, c.tracingSeconds, millions(c.rays) / std::max(c.tracingSeconds, 1e-9));
 }
 
+Json describe(const bake::Preflight& found) {
+  return {{"not_finite", found.notFinite},
+          {"degenerate", found.degenerate},
+          {"duplicate", found.duplicate},
+          {"larger_than_a_map", found.shrunk},
+          {"unlit", found.unlit},
+          {"moving", found.moving},
+          {"bending", found.bending},
+          {"lights_inside", found.buried},
+          {"lights_not_asked", found.notAsked}};
+}
+
+Json describe(const bake::Estimate& e) {
+  return {{"sampled_units", e.units},        {"sampled_texels", e.texels},
+          {"emitter_cells", e.emitterCells}, {"prepare_seconds", e.prepareSeconds},
+          {"light_seconds", e.lightSeconds}, {"deviation", e.deviation},
+          {"threads", threadCount()},        {"light_bytes", e.lightBytes},
+          {"finish_bytes", e.finishBytes},   {"log_bytes", e.logBytes}};
+}
+
+std::string estimateText(const bake::Plan& plan, const bake::Estimate& e) {
+  const std::size_t charts = plan.charts.charts.size();
+  std::string text = fmt::format(
+      "charts     {}\ntexels     {}\nmaps       {} of {} x {}, {:.0f} % covered\nlights     ",
+      charts, plan.texels(), plan.packed.packing.maps, plan.settings.pack.side,
+      plan.settings.pack.side,
+      100. * bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side));
+  std::size_t lights = 0;
+  for (const bake::LightGroup& group : plan.groups) lights += group.lights.size();
+  text += fmt::format("{}, in {} groups that switch; {} cells of surfaces that shine\n", lights,
+                      plan.groups.size() - 1, e.emitterCells);
+  text += fmt::format(
+      "light      about {:.3g} s after {:.2g} s to prepare, give or take {:.2g} s, on {} threads: "
+      "an "
+      "estimate, by {} of {} units\n",
+      e.lightSeconds, e.prepareSeconds, 2. * e.deviation, threadCount(), e.units,
+      plan.units.size());
+  if (e.lightBytes != 0)
+    text += fmt::format("memory     about {} while lighting, {} while writing maps\n",
+                        bytesText(e.lightBytes), bytesText(e.finishBytes));
+  return text +
+         fmt::format("logs       about {}, until the maps are written\n", bytesText(e.logBytes));
+}
+
+// How long the sample of --dry-run takes.
+constexpr double kSampleSeconds = 1.;
+
+Result<int> dryRun(const bake::Plan& plan, bool json) {
+  const bake::Preflight found = bake::inspect(plan);
+  for (const std::string& sentence : found.sentences()) log::warning("{}", sentence);
+  LUCERNA_TRY(estimate, bake::estimate(plan, kSampleSeconds));
+  if (json) {
+    Json document = describe(plan);
+    document["found"] = describe(found);
+    document["estimate"] = describe(estimate);
+    printJson(document);
+  } else {
+    printText(estimateText(plan, estimate));
+  }
+  return 0;
+}
+
+// With --resume: whether nothing is left to do.
+Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
+  if (!options.resume) return false;
+  const Result<bool> finished = bake::isFinished(plan, options.folder);
+  if (finished && *finished) {
+    bake::removeWork(options.folder);
+    log::info("'{}' is finished; nothing is left to do", options.folder);
+    return true;
+  }
+  if (!finished && finished.error().kind == ErrorKind::Usage) return finished.error();
+  if (!finished) log::warning("{}: it is baked again now", finished.error().message);
+  return false;
+}
+
+Result<bake::BakeReport> lightAndFinish(const Options& options, const bake::Plan& plan,
+                                        Clock::time_point start) {
+  LUCERNA_TRY_VOID(bake::prepareFolder(options.folder, options.resume, options.shard));
+  LUCERNA_TRY_VOID(bake::keepOrder(options.folder, bake::orderOf(plan, options.scene)));
+  bake::BakeReport report;
+  report.seconds.prepare = secondsSince(start);
+  LUCERNA_TRY_VOID(bake::lightShard(plan, options.folder, options.shard, report));
+  sayReport(report);
+  if (options.shard.count == 1) LUCERNA_TRY_VOID(bake::finish(plan, options.folder, report));
+  for (const std::string& warning : report.warnings) log::warning("{}", warning);
+  log::info("{} in {:.1f} s",
+            options.shard.count == 1
+                ? fmt::format("wrote {}", options.folder)
+                : fmt::format("finished shard {} of {} in {}", options.shard.index,
+                              options.shard.count, options.folder),
+            secondsSince(start));
+  return report;
+}
+
 Result<int> bakeScene(Options& options, bool json) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   setThreadCount(options.threads);
   options.bake.sampling = presets().at(options.preset);
   if (!options.dryRun)
-    LUCERNA_TRY_VOID(bake::prepareFolder(options.folder, options.resume, options.shard));
+    LUCERNA_TRY_VOID(bake::checkFolder(options.folder, options.resume, options.shard));
   LUCERNA_TRY(scene, scene::loadScene(options.scene));
   for (const std::string& warning : scene.warnings) log::warning("{}", warning);
   scene::animate(scene, 0.f);
   LUCERNA_TRY(plan, bake::makePlan(scene, options.bake));
   for (const std::string& warning : plan.warnings) log::warning("{}", warning);
+  if (options.dryRun) return dryRun(plan, json);
   sayPlan(plan);
   Json document = describe(plan);
-  if (!options.dryRun) {
-    bake::BakeReport report;
-    const std::chrono::duration<double> planned = std::chrono::steady_clock::now() - start;
-    report.seconds.prepare = planned.count();
-    LUCERNA_TRY_VOID(bake::lightShard(plan, options.folder, options.shard, report));
-    sayReport(report);
-    if (options.shard.count == 1) LUCERNA_TRY_VOID(bake::finish(plan, options.folder, report));
-    for (const std::string& warning : report.warnings) log::warning("{}", warning);
+  LUCERNA_TRY(finished, isFinished(options, plan));
+  if (finished) {
+    document["finished"] = true;
+  } else {
+    LUCERNA_TRY(report, lightAndFinish(options, plan, start));
+    document["finished"] = options.shard.count == 1;
     document["bake"] = describe(report);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    log::info("{} in {:.1f} s",
-              options.shard.count == 1
-                  ? fmt::format("wrote {}", options.folder)
-                  : fmt::format("finished shard {} of {} in {}", options.shard.index,
-                                options.shard.count, options.folder),
-              seconds.count());
   }
   if (json) printJson(document);
   return 0;
@@ -158,7 +254,8 @@ void addBake(CommandLine& line) {
   CLI::App* command = addCommand(line, line.app, "bake", "bake a scene's lights into lightmaps",
                                  [&line, options] { return bakeScene(*options, line.talk.json); });
   command->add_option("SCENE", options->scene, sceneHelp())->required();
-  command->add_option("-o,--output", options->folder, "folder of the lightmap")->required();
+  CLI::Option* output =
+      command->add_option("-o,--output", options->folder, "folder of the lightmap");
   command->add_option("--preset", options->preset, "preview, standard or final (standard)")
       ->check(oneOf({"preview", "standard", "final"}));
   addChartFlags(*command, options->bake);
@@ -218,9 +315,15 @@ void addBake(CommandLine& line) {
       },
       "i/N: the i-th of N parts, which share DIR; then lucerna lightmap merge");
   command->add_flag("--dry-run", options->dryRun,
-                    "say what would be baked, and what it would take");
+                    "write nothing; say what would be baked, what it would take and what is odd");
   command->add_option("--threads", options->threads, "CPU threads; 0: one a core (0)")
       ->check(wholeNumber(0, 1024));
+  command->callback([&line, options, output, action = Action([&line, options] {
+                                               return bakeScene(*options, line.talk.json);
+                                             })] {
+    if (output->count() == 0 && !options->dryRun) throw CLI::RequiredError("--output");
+    line.action = action;
+  });
 }
 
 }  // namespace lucerna::cli

@@ -36,6 +36,7 @@ void addRender(CommandLine& line);
 void addReference(CommandLine& line);
 void addCompare(CommandLine& line);
 void addBake(CommandLine& line);
+void addLightmap(CommandLine& line);
 void addBench(CommandLine& line);
 void addInfo(CommandLine& line);
 void addDoctor(CommandLine& line);

@@ -1,5 +1,6 @@
 // lucerna: the command line. Exit codes are those of ErrorKind.
 
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -42,6 +43,7 @@ int run(int count, char** words) {
   addReference(line);
   addCompare(line);
   addBake(line);
+  addLightmap(line);
   addBench(line);
   addInfo(line);
   addDoctor(line);
@@ -63,6 +65,7 @@ int run(int count, char** words) {
                                     : log::Level::Info);
   Progress::setVisible(!line.talk.quiet);
   Progress::catchInterrupt();
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is a write that fails
   try {
     const Result<int> result = line.action();
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)

@@ -1,15 +1,19 @@
 #include "bake/bake.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <mutex>
 
 #include "bake/assemble.hpp"
+#include "bake/bake_order.hpp"
 #include "bake/unit_log.hpp"
 #include "bake/write_lightmap.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
+#include "lightmap/lightmap.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -17,31 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* kWork = "work";
-
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-fs::path logPath(const fs::path& folder, const Shard& shard) {
-  return folder / kWork / fmt::format("shard-{}-of-{}.log", shard.index, shard.count);
-}
-
-std::vector<std::uint32_t> unitsOf(const Plan& plan, const Shard& shard) {
-  std::vector<std::uint32_t> units;
-  for (auto i = static_cast<std::uint32_t>(shard.index - 1); i < plan.units.size();
-       i += static_cast<std::uint32_t>(shard.count))
-    units.push_back(i);
-  return units;
-}
-
-std::vector<fs::path> logsIn(const fs::path& folder) {
-  std::vector<fs::path> logs;
-  std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder / kWork, none))
-    if (entry.path().extension() == ".log") logs.push_back(entry.path());
-  std::ranges::sort(logs);
-  return logs;
 }
 
 // The first error of any thread; the others stop.
@@ -61,38 +42,152 @@ class FirstError {
   std::optional<Error> error_;
 };
 
+// The nearest folder on the way there that exists can be written.
+Status checkWritable(const fs::path& folder) {
+  std::error_code failed;
+  fs::path there = fs::absolute(folder, failed);
+  while (!fs::exists(there, failed) && there.has_relative_path()) there = there.parent_path();
+  if (::access(there.c_str(), W_OK | X_OK) == 0 && fs::is_directory(there, failed)) return {};
+  return error(ErrorKind::Failed, "-o: '{}' cannot be made: '{}' is no folder that can be written",
+               folder.string(), there.string());
+}
+
+bool holdsOthers(const fs::path& folder) {
+  std::error_code failed;
+  return fs::is_directory(folder, failed) && !fs::is_empty(folder, failed) &&
+         !fs::exists(folder / "manifest.json", failed) && !fs::exists(folder / kWorkFolder, failed);
+}
+
+// What is named like the temporary files of core/file.hpp.
+bool isTemporary(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with('.') && name.find(".tmp-") != std::string::npos;
+}
+
+// Marks what logs of other divisions into shards hold: no shard of this one writes them.
+Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& shard,
+                        std::vector<bool>& done) {
+  const std::string ending = fmt::format("-of-{}.log", shard.count);
+  for (const fs::path& log : logsIn(folder)) {
+    if (log.filename().string().ends_with(ending)) continue;
+    LUCERNA_TRY(state, readUnitLog(log, plan.hash, plan.units.size(), {}));
+    for (std::size_t i = 0; i < done.size(); ++i)
+      if (state.done[i]) done[i] = true;
+  }
+  return {};
+}
+
+// All logs, put into maps.
+struct Merged {
+  BakedLight baked;
+  std::vector<bool> done;
+  std::vector<fs::path> logs;
+  std::vector<std::string> damage;
+};
+
+Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
+  Merged merged{.baked = emptyLight(plan),
+                .done = std::vector<bool>(plan.units.size(), false),
+                .logs = logsIn(folder),
+                .damage = {}};
+  for (const fs::path& path : merged.logs) {
+    const auto use = [&](std::uint32_t unit, std::span<const std::byte> payload) -> Status {
+      if (merged.done[unit]) return {};
+      const auto light = unitLightFrom(payload, plan, plan.units[unit]);
+      if (!light)
+        return error(ErrorKind::Input, "{}: is damaged; remove it and bake that part again",
+                     path.string());
+      place(merged.baked, plan, plan.units[unit], *light);
+      merged.done[unit] = true;
+      return {};
+    };
+    LUCERNA_TRY(state, readUnitLog(path, plan.hash, plan.units.size(), use));
+    merged.damage.insert(merged.damage.end(), state.damage.begin(), state.damage.end());
+  }
+  return merged;
+}
+
+Status checkComplete(const Merged& merged, const fs::path& folder) {
+  const auto missing = std::ranges::count(merged.done, false);
+  if (missing == 0) return {};
+  const std::string damage =
+      merged.damage.empty() ? "" : fmt::format("; {}", fmt::join(merged.damage, "; "));
+  return error(ErrorKind::Failed,
+               "'{}': {} of {} units of light are missing: {}{}; bake these shards with the same "
+               "settings and --resume",
+               folder.string(), missing, merged.done.size(),
+               describeMissing(merged.logs, merged.done), damage);
+}
+
 }  // namespace
 
-Status prepareFolder(const fs::path& folder, bool resume, const Shard& shard) {
+Status checkFolder(const fs::path& folder, bool resume, const Shard& shard) {
   std::error_code failed;
-  const fs::path work = folder / kWork;
   if (fs::exists(folder, failed) && !fs::is_directory(folder, failed))
     return error(ErrorKind::Usage, "-o: '{}' is a file; wanted a folder", folder.string());
   if (fs::exists(logPath(folder, shard), failed) && !resume)
     return error(ErrorKind::Usage,
                  "-o: '{}' holds an unfinished bake; go on with --resume, or remove '{}'",
-                 folder.string(), work.string());
-  const bool foreign = fs::is_directory(folder, failed) && !fs::is_empty(folder, failed) &&
-                       !fs::exists(folder / "manifest.json", failed) && !fs::exists(work, failed);
-  if (foreign)
+                 folder.string(), (folder / kWorkFolder).string());
+  if (holdsOthers(folder))
     return error(ErrorKind::Usage,
                  "-o: '{}' holds files that are none of a lightmap; wanted a new or empty folder",
                  folder.string());
-  fs::create_directories(work, failed);
+  return checkWritable(folder);
+}
+
+Status prepareFolder(const fs::path& folder, bool resume, const Shard& shard) {
+  LUCERNA_TRY_VOID(checkFolder(folder, resume, shard));
+  std::error_code failed;
+  fs::create_directories(folder / kWorkFolder, failed);
   if (failed)
-    return error(ErrorKind::Failed, "-o: '{}' cannot be made ({})", work.string(),
+    return error(ErrorKind::Failed, "-o: '{}' cannot be made ({})", (folder / kWorkFolder).string(),
                  failed.message());
   return {};
+}
+
+Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
+  const Result<std::string> text = readText(folder / "manifest.json");
+  if (!text) return false;
+  const auto manifest = lightmap::manifestFrom(*text, (folder / "manifest.json").string());
+  std::error_code none;
+  const bool unfinished = fs::exists(orderPath(folder), none);
+  if (!manifest) {
+    if (unfinished) return false;
+    return manifest.error();
+  }
+  if (manifest->sceneHash != lightmap::hashText16(plan.hash) ||
+      manifest->settings != settingsText(plan.settings)) {
+    if (unfinished) return false;
+    return error(ErrorKind::Usage,
+                 "-o: '{}' holds a finished bake of another scene or other settings; bake without "
+                 "--resume to replace it",
+                 folder.string());
+  }
+  for (const lightmap::FileEntry& entry : lightmap::filesOf(*manifest))
+    LUCERNA_TRY_VOID(lightmap::checkEntry(folder, entry));
+  return true;
+}
+
+void removeWork(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder / kWorkFolder, ignored);
+  std::vector<fs::path> left;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (isTemporary(entry.path())) left.push_back(entry.path());
+  for (const fs::path& path : left) fs::remove(path, ignored);
 }
 
 Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
                   BakeReport& report) {
   LUCERNA_TRY(log, UnitLog::open(logPath(folder, shard), plan.hash, plan.units.size()));
-  report.warnings.insert(report.warnings.end(), log.state().warnings.begin(),
-                         log.state().warnings.end());
-  std::vector<std::uint32_t> missing = unitsOf(plan, shard);
+  for (const std::string& damage : log.state().damage)
+    report.warnings.push_back(damage + "; what it held is baked again");
+  std::vector<std::uint32_t> missing = unitsOf(plan.units.size(), shard);
   report.units = missing.size();
-  std::erase_if(missing, [&](std::uint32_t unit) { return log.state().done[unit]; });
+  std::vector<bool> done = log.state().done;
+  LUCERNA_TRY_VOID(addDoneElsewhere(plan, folder, shard, done));
+  std::erase_if(missing, [&](std::uint32_t unit) { return done[unit]; });
   report.unitsBefore = report.units - missing.size();
   if (missing.empty()) return {};
 
@@ -128,35 +223,11 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
 
 Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
   const auto start = Clock::now();
-  BakedLight baked = emptyLight(plan);
-  std::vector<bool> done(plan.units.size(), false);
-  std::vector<std::string> sources;
-  for (const fs::path& path : logsIn(folder)) {
-    const auto use = [&](std::uint32_t unit, std::span<const std::byte> payload) -> Status {
-      if (done[unit]) return {};
-      const auto light = unitLightFrom(payload, plan, plan.units[unit]);
-      if (!light)
-        return error(ErrorKind::Input, "{}: is damaged; remove it and bake that part again",
-                     path.string());
-      place(baked, plan, plan.units[unit], *light);
-      done[unit] = true;
-      return {};
-    };
-    LUCERNA_TRY(state, readUnitLog(path, plan.hash, plan.units.size(), use));
-    report.warnings.insert(report.warnings.end(), state.warnings.begin(), state.warnings.end());
-    sources.push_back(path.filename().string());
-  }
-  const auto missing = std::ranges::count(done, false);
-  if (missing > 0)
-    return error(ErrorKind::Failed,
-                 "'{}': {} of {} units of light are missing; found {}; bake the shards that are "
-                 "missing, or those again that were not finished, with --resume",
-                 folder.string(), missing, done.size(),
-                 sources.empty() ? "no logs" : fmt::format("{}", fmt::join(sources, ", ")));
-  dilate(baked);
-  LUCERNA_TRY_VOID(writeLightmap(plan, baked, folder, report.texels));
-  std::error_code ignored;
-  fs::remove_all(folder / kWork, ignored);
+  LUCERNA_TRY(merged, readLogs(plan, folder));
+  LUCERNA_TRY_VOID(checkComplete(merged, folder));
+  dilate(merged.baked);
+  LUCERNA_TRY_VOID(writeLightmap(plan, merged.baked, folder, report.texels));
+  removeWork(folder);
   report.seconds.finish += secondsSince(start);
   return {};
 }

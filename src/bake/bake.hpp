@@ -1,20 +1,17 @@
 // A bake from a plan to files: light into logs, logs into maps. A shard does the first, merging the
 // second; a plain bake is the only shard and merges at once.
 //
-// While it runs, DIR/work holds what is finished. A finished DIR has the maps and what
-// manifest.json names, and nothing else.
+// While it runs, DIR/work holds what is finished and what was asked for (bake/bake_order.hpp). A
+// finished DIR has the maps and what manifest.json names, and nothing else.
 #pragma once
 
 #include <filesystem>
 
 #include "bake/plan.hpp"
+#include "bake/shards.hpp"
 #include "bake/unit_light.hpp"
 
 namespace lucerna::bake {
-
-struct Shard {
-  int index = 1, count = 1;  // from 1
-};
 
 struct StageSeconds {
   double prepare = 0., light = 0., finish = 0.;  // of the clock on the wall
@@ -29,17 +26,28 @@ struct BakeReport {
   std::vector<std::string> warnings;
 };
 
-// Makes DIR and DIR/work. ErrorKind::Usage: DIR/work holds an unfinished bake and `resume` is not
-// set; DIR is not empty and holds no lightmap.
+// Asks before long work. ErrorKind::Usage: DIR/work holds an unfinished part of the same number and
+// `resume` is not set; DIR is a file, or is not empty and holds no lightmap. ErrorKind::Failed: it
+// cannot be written.
+Status checkFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
+// The same, and makes DIR and DIR/work.
 Status prepareFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
 
-// Lights the shard's units that no log of it has yet, and logs them. ErrorKind::Cancelled after
-// Ctrl-C: what is done is kept.
+// Whether DIR holds this very bake, finished: each of its files is read. ErrorKind::Input: it does,
+// but a file is damaged; the message names it. ErrorKind::Usage: it holds another finished bake and
+// no unfinished one.
+Result<bool> isFinished(const Plan& plan, const std::filesystem::path& folder);
+
+// Removes DIR/work, and what writers that were killed left in DIR.
+void removeWork(const std::filesystem::path& folder);
+
+// Lights the shard's units that no log has yet, and logs them. ErrorKind::Cancelled after Ctrl-C:
+// what is done is kept.
 Status lightShard(const Plan& plan, const std::filesystem::path& folder, const Shard& shard,
                   BakeReport& report);
 
 // Reads all logs in DIR/work and writes maps, layout and manifest; then DIR/work is removed.
-// ErrorKind::Failed: units are missing (it says of which shards).
+// ErrorKind::Failed: units are missing (it says of which shards, and which logs are damaged where).
 Status finish(const Plan& plan, const std::filesystem::path& folder, BakeReport& report);
 
 }  // namespace lucerna::bake

@@ -24,6 +24,37 @@ std::vector<Unit> shareOut(std::span<const Block> blocks) {
   return units;
 }
 
+Charts chartsOf(const World& world, const BakeSettings& settings) {
+  return makeCharts(
+      world,
+      {.unwrap = settings.unwrap, .density = settings.density, .mostSide = settings.pack.side});
+}
+
+Result<PackedCharts> packed(const Charts& charts, const BakeSettings& settings) {
+  std::vector<std::span<const FlatTriangle>> shapes;
+  for (const Chart& chart : charts.charts) shapes.emplace_back(chart.corners);
+  return packCharts(shapes, settings.pack);
+}
+
+// A density below the settings' whose maps are not too many, found by trying; of two digits. 0 if
+// there is none near what the charts' areas let hope for.
+float densityThatFits(const World& world, const Charts& charts, BakeSettings settings) {
+  constexpr int kMostTries = 20;
+  constexpr float kStep = 0.92f;
+  double texels = 0.;
+  for (const Chart& chart : charts.charts)
+    texels += static_cast<double>(chart.size.x) * chart.size.y;
+  const double room =
+      static_cast<double>(settings.pack.mostMaps) * settings.pack.side * settings.pack.side;
+  float density = settings.density * static_cast<float>(std::min(1., std::sqrt(room / texels)));
+  for (int i = 0; i < kMostTries; ++i, density *= kStep) {
+    const float unit = std::pow(10.f, std::floor(std::log10(density)) - 1.f);
+    settings.density = std::floor(density / unit) * unit;
+    if (packed(chartsOf(world, settings), settings)) return settings.density;
+  }
+  return 0.f;
+}
+
 // Leaves the groups that are asked for; what is always on is one of the name "always-on".
 Status choose(Plan& plan) {
   std::vector<LightGroup>& groups = plan.groups;
@@ -48,6 +79,13 @@ Status choose(Plan& plan) {
   return {};
 }
 
+bool anyEmits(const World& world) {
+  return std::ranges::any_of(world.objects, [&](const WorldObject& object) {
+    const scene::Object& drawn = world.scene->objects[object.object];
+    return world.scene->materials[drawn.material].emissive != vec3(0.f);
+  });
+}
+
 void addWarnings(Plan& plan) {
   const Charts& charts = plan.charts;
   if (charts.degenerate > 0)
@@ -65,7 +103,7 @@ void addWarnings(Plan& plan) {
         "a lower --density would hold them",
         charts.shrunk));
   const bool dark =
-      !plan.emittersShine() &&
+      !(plan.emittersShine() && anyEmits(plan.world)) &&
       std::ranges::all_of(plan.groups, [](const LightGroup& g) { return g.lights.empty(); });
   if (dark) plan.warnings.push_back("the scene has no lights to bake; the maps will be black");
 }
@@ -82,18 +120,18 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   Plan plan;
   plan.settings = settings;
   plan.world = makeWorld(scene);
-  plan.charts = makeCharts(plan.world, {.unwrap = settings.unwrap,
-                                        .density = settings.density,
-                                        .gap = settings.pack.gap,
-                                        .mostSide = settings.pack.side});
+  plan.charts = chartsOf(plan.world, settings);
   if (plan.charts.charts.empty())
     return error(ErrorKind::Input,
                  "'{}': found no triangle that takes light; wanted a scene with surfaces",
                  scene.name);
-  std::vector<std::span<const FlatTriangle>> shapes;
-  for (const Chart& chart : plan.charts.charts) shapes.emplace_back(chart.corners);
-  LUCERNA_TRY(packed, packCharts(shapes, settings.pack));
-  plan.packed = std::move(packed);
+  auto places = packed(plan.charts, settings);
+  if (!places) {
+    const float fits = densityThatFits(plan.world, plan.charts, settings);
+    if (fits == 0.f) return places.error();
+    return error(places.error().kind, "{}: --density {:.2g} fits", places.error().message, fits);
+  }
+  plan.packed = std::move(*places);
   for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i)
     addBlocks(plan.blocks, plan.charts.charts[i], i);
   plan.units = shareOut(plan.blocks);

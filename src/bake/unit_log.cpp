@@ -79,26 +79,25 @@ Result<Scan> scan(int file, const std::filesystem::path& path, std::uint64_t pla
   result.state.done.assign(units, false);
   Header header;
   if (size < sizeof header) return result;  // killed before it was written
-  if (!readOne(file, 0, header) || header.magic != kMagic || header.hash != header.own())
-    return error(ErrorKind::Input, "{}: is damaged, or no log of a bake; remove it to start again",
-                 path.string());
+  const auto damaged = [&](const char* what, std::uint64_t at) {
+    result.state.damage.push_back(fmt::format("{}: {} at byte {}", path.string(), what, at));
+  };
+  if (!readOne(file, 0, header) || header.magic != kMagic || header.hash != header.own()) {
+    damaged("found a damaged head", 0);
+    return result;
+  }
   if (header.planHash != planHash || header.units != units)
     return error(ErrorKind::Input,
-                 "{}: is of another scene or other settings; give those again, or remove the "
-                 "folder to start anew",
+                 "{}: is of another scene or other settings; remove it to bake that part again",
                  path.string());
   std::uint64_t at = sizeof header;
   Bytes payload;
-  const auto warn = [&](const char* what) {
-    result.state.warnings.push_back(
-        fmt::format("{}: {} at byte {}; what it held is baked again", path.string(), what, at));
-  };
   for (; at < size;) {
     Record record;
     if (size - at < sizeof record) break;  // torn
-    if (!readOne(file, at, record) || record.hash != record.own() || record.unit >= units ||
-        record.bytes > kMostPayload) {
-      warn("found a damaged record");
+    if (!readOne(file, at, record) || record.hash != record.own() || record.spare != 0 ||
+        record.unit >= units || record.bytes > kMostPayload) {
+      damaged("found a damaged record", at);
       break;
     }
     if (record.bytes > size - at - sizeof record) break;  // torn
@@ -106,7 +105,7 @@ Result<Scan> scan(int file, const std::filesystem::path& path, std::uint64_t pla
     const bool sound =
         readAll(file, at + sizeof record, payload) && hashBytes(payload) == record.payloadHash;
     if (!sound) {
-      warn("found a damaged record");
+      damaged("found a damaged record", at);
     } else if (!result.state.done[record.unit]) {
       result.state.done[record.unit] = true;
       if (use) LUCERNA_TRY_VOID(use(record.unit, payload));

@@ -16,15 +16,15 @@ namespace lucerna::bake {
 
 // What opening or reading a log found.
 struct LogState {
-  std::vector<bool> done;             // by unit
-  std::vector<std::string> warnings;  // torn or damaged records, which count as not done
+  std::vector<bool> done;           // by unit
+  std::vector<std::string> damage;  // where the file is damaged; what stood there is not done
 };
 
 class UnitLog {
  public:
-  // Opens or makes the log of a plan with that many units, and drops a torn tail. Errors: another
-  // process writes it (ErrorKind::Failed), it is of another plan (ErrorKind::Input), it cannot be
-  // written (ErrorKind::Failed).
+  // Opens or makes the log of a plan with that many units, and drops a torn tail, and all of a log
+  // whose head is damaged. Errors: another process writes it (ErrorKind::Failed), it is of another
+  // plan (ErrorKind::Input), it cannot be written (ErrorKind::Failed).
   static Result<UnitLog> open(const std::filesystem::path& path, std::uint64_t planHash,
                               std::size_t units);
   UnitLog(UnitLog&& other) noexcept;

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "bake/bake_order.hpp"
 #include "bake/make_patch.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
@@ -165,6 +166,7 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   const scene::Scene& scene = *plan.world.scene;
   manifest.scene = scene.name;
   manifest.sceneHash = lightmap::hashText16(plan.hash);
+  manifest.settings = settingsText(plan.settings);
   manifest.processor = rayInstructionSet();
   manifest.side = plan.settings.pack.side;
   manifest.density = plan.settings.density;
@@ -188,13 +190,8 @@ void describeScene(const Plan& plan, Manifest& manifest) {
 }
 
 std::set<std::string> namesIn(const Manifest& manifest) {
-  std::set<std::string> names{"manifest.json", manifest.layout.file};
-  for (const lightmap::MapEntry& map : manifest.maps) {
-    names.insert(map.master.file);
-    for (const FileEntry& encoded : map.encoded) names.insert(encoded.file);
-  }
-  for (const lightmap::PatchEntry& patch : manifest.patches) names.insert(patch.patch.file);
-  for (const FileEntry& entry : manifest.gltf) names.insert(entry.file);
+  std::set<std::string> names{"manifest.json"};
+  for (const FileEntry& entry : lightmap::filesOf(manifest)) names.insert(entry.file);
   return names;
 }
 

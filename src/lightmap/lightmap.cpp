@@ -5,20 +5,6 @@
 #include "image/image_file.hpp"
 
 namespace lucerna::lightmap {
-namespace {
-
-Result<Image> readMap(const std::filesystem::path& folder, const MapEntry& map, int side) {
-  LUCERNA_TRY(bytes, readEntry(folder, map.master));
-  const std::string name = (folder / map.master.file).string();
-  LUCERNA_TRY(image, decodeImage(bytes, name));
-  if (image.width() != side || image.height() != side)
-    return error(ErrorKind::Input, "{}: found {} x {} pixels, wanted {} x {} as the manifest says",
-                 name, image.width(), image.height(), side, side);
-  return converted(image, ComponentType::F32, 3);
-}
-
-}  // namespace
-
 Result<Bytes> readEntry(const std::filesystem::path& folder, const FileEntry& entry) {
   const std::filesystem::path path = folder / entry.file;
   LUCERNA_TRY(bytes, readFile(path));
@@ -31,7 +17,12 @@ Result<Bytes> readEntry(const std::filesystem::path& folder, const FileEntry& en
   return bytes;
 }
 
-Result<Lightmap> readLightmap(const std::filesystem::path& folder) {
+Status checkEntry(const std::filesystem::path& folder, const FileEntry& entry) {
+  LUCERNA_TRY(bytes, readEntry(folder, entry));
+  return {};
+}
+
+Result<Manifest> readManifest(const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / "manifest.json";
   std::error_code none;
   if (!std::filesystem::exists(path, none))
@@ -40,23 +31,44 @@ Result<Lightmap> readLightmap(const std::filesystem::path& folder) {
                  "finished `lucerna bake`",
                  folder.string());
   LUCERNA_TRY(text, readText(path));
-  Lightmap lightmap;
-  LUCERNA_TRY(manifest, manifestFrom(text, path.string()));
-  lightmap.manifest = std::move(manifest);
-  const Manifest& m = lightmap.manifest;
-  LUCERNA_TRY(layoutBytes, readEntry(folder, m.layout));
-  LUCERNA_TRY(layout, layoutFrom(layoutBytes, (folder / m.layout.file).string()));
-  if (layout.side != m.side || layout.maps != static_cast<int>(m.maps.size()))
+  return manifestFrom(text, path.string());
+}
+
+Result<Layout> readLayout(const std::filesystem::path& folder, const Manifest& manifest) {
+  LUCERNA_TRY(bytes, readEntry(folder, manifest.layout));
+  LUCERNA_TRY(layout, layoutFrom(bytes, (folder / manifest.layout.file).string()));
+  if (layout.side != manifest.side || layout.maps != static_cast<int>(manifest.maps.size()))
     return error(ErrorKind::Input,
                  "{}: the layout has {} maps of {} texels a side, the manifest {} of {}; bake the "
                  "scene again",
-                 path.string(), layout.maps, layout.side, m.maps.size(), m.side);
+                 (folder / "manifest.json").string(), layout.maps, layout.side,
+                 manifest.maps.size(), manifest.side);
+  return layout;
+}
+
+Result<Image> readMap(const std::filesystem::path& folder, const Manifest& manifest,
+                      std::size_t index) {
+  const MapEntry& map = manifest.maps[index];
+  LUCERNA_TRY(bytes, readEntry(folder, map.master));
+  const std::string name = (folder / map.master.file).string();
+  LUCERNA_TRY(image, decodeImage(bytes, name));
+  if (image.width() != manifest.side || image.height() != manifest.side)
+    return error(ErrorKind::Input, "{}: found {} x {} pixels, wanted {} x {} as the manifest says",
+                 name, image.width(), image.height(), manifest.side, manifest.side);
+  return converted(image, ComponentType::F32, 3);
+}
+
+Result<Lightmap> readLightmap(const std::filesystem::path& folder) {
+  Lightmap lightmap;
+  LUCERNA_TRY(manifest, readManifest(folder));
+  lightmap.manifest = std::move(manifest);
+  LUCERNA_TRY(layout, readLayout(folder, lightmap.manifest));
   lightmap.layout = std::move(layout);
-  for (const MapEntry& map : m.maps) {
-    LUCERNA_TRY(image, readMap(folder, map, m.side));
+  for (std::size_t i = 0; i < lightmap.manifest.maps.size(); ++i) {
+    LUCERNA_TRY(image, readMap(folder, lightmap.manifest, i));
     lightmap.maps.push_back(std::move(image));
   }
-  for (const PatchEntry& entry : m.patches) {
+  for (const PatchEntry& entry : lightmap.manifest.patches) {
     LUCERNA_TRY(bytes, readEntry(folder, entry.patch));
     LUCERNA_TRY(patch, patchFrom(bytes, (folder / entry.patch.file).string()));
     lightmap.patches.push_back(std::move(patch));

@@ -23,7 +23,14 @@ struct Lightmap {
 // manifest says), or not fitting the others.
 Result<Lightmap> readLightmap(const std::filesystem::path& folder);
 
+// Its parts, for who needs not all at once; errors as above.
+Result<Manifest> readManifest(const std::filesystem::path& folder);
+Result<Layout> readLayout(const std::filesystem::path& folder, const Manifest& manifest);
+Result<Image> readMap(const std::filesystem::path& folder, const Manifest& manifest,
+                      std::size_t index);
+
 // One file of the folder, if its hash is right.
 Result<Bytes> readEntry(const std::filesystem::path& folder, const FileEntry& entry);
+Status checkEntry(const std::filesystem::path& folder, const FileEntry& entry);
 
 }  // namespace lucerna::lightmap

@@ -101,6 +101,32 @@ TEST(Manifest, WhatHasNoNameComesBackWithoutOne) {
   EXPECT_EQ(back->lights.at(0).group, "");
 }
 
+TEST(Manifest, NoOtherByteIsTakenForIt) {
+  const std::string text = toJson(smallManifest());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    std::string without = text;
+    without.erase(i, 1);
+    std::string flipped = text;
+    flipped[i] = static_cast<char>(flipped[i] ^ 1);
+    for (const std::string& damaged : {without, flipped, text.substr(0, i)}) {
+      const Result<Manifest> read = manifestFrom(damaged, "manifest.json");
+      if (!read) continue;
+      EXPECT_EQ(toJson(*read), text) << i << ": only white space differs";
+    }
+  }
+}
+
+TEST(Manifest, ByHandNeedsNoHash) {
+  std::string text = toJson(smallManifest());
+  const std::size_t at = text.rfind(",\n \"hash\"");
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, std::string::npos, "}");
+  text.replace(text.find("2.5"), 3, "3.5");
+  const Result<Manifest> read = manifestFrom(text, "manifest.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->density, 3.5f);
+}
+
 TEST(Manifest, SaysEveryFault) {
   Manifest manifest = smallManifest();
   manifest.layout.file = "../layout.bin";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/hash.hpp"
 #include "core/json_value.hpp"
 
 namespace lucerna::lightmap {
@@ -139,10 +140,41 @@ void readList(const JsonValue& root, const char* key, std::vector<T>& entries) {
   for (const JsonValue& value : root.at(key).elements()) readEntry(value, entries.emplace_back());
 }
 
+// Names from foreign files may be no UTF-8.
+std::string textOf(const Json& document) {
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string hashOf(const Json& document) {
+  return hashText16(hashText(textOf(document)));
+}
+
+// Of what is said, however it is spaced; a manifest without one is anybody's own.
+void checkHash(const JsonValue& root, Json document) {
+  std::string wanted;
+  if (!root.read("hash", wanted)) return;
+  document.erase("hash");
+  if (const std::string found = hashOf(document); found != wanted)
+    root.at("hash").fault(fmt::format(
+        "the manifest is damaged or was changed: its hash is {}, wanted {}; bake the scene again",
+        found, wanted));
+}
+
 }  // namespace
 
 std::string hashText16(std::uint64_t hash) {
   return fmt::format("{:016x}", hash);
+}
+
+std::vector<FileEntry> filesOf(const Manifest& manifest) {
+  std::vector<FileEntry> files{manifest.layout};
+  for (const MapEntry& map : manifest.maps) {
+    files.push_back(map.master);
+    files.insert(files.end(), map.encoded.begin(), map.encoded.end());
+  }
+  for (const PatchEntry& patch : manifest.patches) files.push_back(patch.patch);
+  files.insert(files.end(), manifest.gltf.begin(), manifest.gltf.end());
+  return files;
 }
 
 std::string toJson(const Manifest& m) {
@@ -158,7 +190,8 @@ std::string toJson(const Manifest& m) {
   document["objects"] = list(m.objects);
   document["lights"] = list(m.lights);
   document["gltf"] = list(m.gltf);
-  return document.dump(1) + "\n";
+  document["hash"] = hashOf(document);
+  return textOf(document);
 }
 
 Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
@@ -166,7 +199,7 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
   const JsonValue root = document.root();
   Manifest m;
   if (!root.object({"lucerna", "scene", "settings", "processor", "side", "density", "layout",
-                    "maps", "patches", "objects", "lights", "gltf"}))
+                    "maps", "patches", "objects", "lights", "gltf", "hash"}))
     return document.status().error();
   root.format(kFormat);
   root.require({"lucerna", "scene", "side", "layout", "maps"});
@@ -183,6 +216,11 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
   readList(root, "objects", m.objects);
   readList(root, "lights", m.lights);
   readList(root, "gltf", m.gltf);
+  // As a whole, too; one that JsonDocument takes is an object here.
+  const Json whole = Json::parse(text, nullptr, false, true);
+  if (whole.contains("settings"))
+    m.settings = whole["settings"].dump(1, ' ', false, Json::error_handler_t::replace);
+  checkHash(root, whole);
   LUCERNA_TRY_VOID(document.status());
   return m;
 }

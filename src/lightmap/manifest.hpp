@@ -56,6 +56,9 @@ struct Manifest {
   std::vector<FileEntry> gltf;  // the copy of the scene, and pictures that only it names
 };
 
+// All files that it names.
+std::vector<FileEntry> filesOf(const Manifest& manifest);
+
 std::string toJson(const Manifest& manifest);
 // Errors (ErrorKind::Input): every fault, one a line. Names of files stay within the folder.
 Result<Manifest> manifestFrom(std::string_view text, const std::string& name);

@@ -1,0 +1,182 @@
+#include "bake/bake_order.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "bake/shards.hpp"
+#include "core/file.hpp"
+#include "core/json_value.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "bake/1";
+constexpr std::initializer_list<const char*> kEncodings{"rgb9e5", "bc6h", "png"};  // as Encoding
+
+// With no more digits than it needs.
+Json number(float value) {
+  return Json::parse(fmt::format("{}", value));
+}
+
+Json settingsJson(const BakeSettings& s) {
+  Json json{{"unwrap", s.unwrap == Unwrap::Pairs ? "pairs" : "charts"},
+            {"density", number(s.density)},
+            {"size", s.pack.side},
+            {"padding", s.pack.gap},
+            {"mostMaps", s.pack.mostMaps},
+            {"positions", s.sampling.positions},
+            {"lightSamples", s.sampling.lightSamples},
+            {"emitterSize", number(s.sampling.emitterSize)},
+            {"faintest", number(s.faintest)},
+            {"sky", {number(s.sky.x), number(s.sky.y), number(s.sky.z)}},
+            {"skyDirections", s.skyDirections},
+            {"engine", s.engine == Engine::Octree ? "octree" : "embree"}};
+  if (std::isfinite(s.reach)) json["reach"] = number(s.reach);
+  if (!s.groups.empty()) json["lights"] = s.groups;
+  for (const Encoding encoding : s.encodings)
+    json["encode"].push_back(kEncodings.begin()[static_cast<std::size_t>(encoding)]);
+  return json;
+}
+
+void readSettings(const JsonValue& from, BakeSettings& s) {
+  if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions", "lightSamples",
+                    "emitterSize", "faintest", "sky", "skyDirections", "engine", "reach", "lights",
+                    "encode"}))
+    return;
+  from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "lightSamples",
+                "emitterSize", "faintest", "sky", "skyDirections", "engine"});
+  int choice = 0;
+  if (from.readChoice("unwrap", {"charts", "pairs"}, choice))
+    s.unwrap = choice == 0 ? Unwrap::Charts : Unwrap::Pairs;
+  from.read("density", s.density, {1e-3f, 1e5f, "texels/m"});
+  from.readInteger("size", s.pack.side, 16, 16384);
+  from.readInteger("padding", s.pack.gap, 1, 64);
+  from.readInteger("mostMaps", s.pack.mostMaps, 1, 4096);
+  from.readInteger("positions", s.sampling.positions, 1, 64);
+  from.readInteger("lightSamples", s.sampling.lightSamples, 1, 1 << 16);
+  from.read("emitterSize", s.sampling.emitterSize, {1e-6f, 1e6f, ""});
+  from.read("faintest", s.faintest, kUnitRange);
+  if (from.readChoice("engine", {"embree", "octree"}, choice))
+    s.engine = choice == 0 ? Engine::Embree : Engine::Octree;
+  from.read("reach", s.reach, {0.01f, 1e6f, "m"});
+  from.read("sky", s.sky, {0.f, 1e6f, ""});
+  from.readInteger("skyDirections", s.skyDirections, 1, 1 << 20);
+  if (from.has("lights"))
+    for (const JsonValue& group : from.at("lights").elements()) group.text(s.groups.emplace_back());
+  if (!from.has("encode")) return;
+  const std::vector<std::string> names(kEncodings.begin(), kEncodings.end());
+  for (const JsonValue& encoding : from.at("encode").elements())
+    if (std::size_t index = 0; encoding.choice(names, index))
+      s.encodings.push_back(static_cast<Encoding>(index));
+}
+
+std::string textOf(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+// "density is 10 there, 20 here"; one that is missing is "none".
+std::string differences(const Json& there, const Json& here) {
+  std::vector<std::string> list;
+  const auto compare = [&](const std::string& key) {
+    const std::string a = there.contains(key) ? textOf(there[key]) : "none";
+    const std::string b = here.contains(key) ? textOf(here[key]) : "none";
+    if (a != b) list.push_back(fmt::format("{} is {} there, {} here", key, a, b));
+  };
+  for (const auto& [key, value] : there.items()) compare(key);
+  for (const auto& [key, value] : here.items())
+    if (!there.contains(key)) compare(key);
+  return fmt::format("{}", fmt::join(list, ", "));
+}
+
+Status checkSame(const BakeOrder& there, const BakeOrder& here, const fs::path& folder) {
+  const std::string work = (folder / kWorkFolder).string();
+  const std::string found = differences(settingsJson(there.settings), settingsJson(here.settings));
+  if (!found.empty())
+    return error(
+        ErrorKind::Usage,
+        "-o: '{}' holds an unfinished bake of other settings: {}; give the same, or remove "
+        "'{}' to start anew",
+        folder.string(), found, work);
+  if (there.plan == here.plan) return {};
+  if (there.scene != here.scene)
+    return error(ErrorKind::Usage,
+                 "-o: '{}' holds an unfinished bake of another scene: '{}' there, '{}' here; give "
+                 "the same, or remove '{}' to start anew",
+                 folder.string(), there.scene, here.scene, work);
+  return error(
+      ErrorKind::Usage,
+      "-o: '{}' holds an unfinished bake of '{}' as it was before it changed, or of another "
+      "version of this program; remove '{}' to start anew",
+      folder.string(), there.scene, work);
+}
+
+std::string absoluteScene(const std::string& scene) {
+  if (scene.starts_with("builtin:")) return scene;
+  std::error_code failed;
+  const fs::path path = fs::absolute(scene, failed);
+  return failed ? scene : path.lexically_normal().string();
+}
+
+}  // namespace
+
+BakeOrder orderOf(const Plan& plan, const std::string& scene) {
+  return {.scene = absoluteScene(scene), .plan = plan.hash, .settings = plan.settings};
+}
+
+std::string settingsText(const BakeSettings& settings) {
+  return settingsJson(settings).dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string toJson(const BakeOrder& order) {
+  const Json document{{"lucerna", kFormat},
+                      {"scene", order.scene},
+                      {"plan", fmt::format("{:016x}", order.plan)},
+                      {"settings", settingsJson(order.settings)}};
+  return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Result<BakeOrder> orderFrom(std::string_view text, const std::string& name) {
+  LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
+  const JsonValue root = document.root();
+  BakeOrder order;
+  if (!root.object({"lucerna", "scene", "plan", "settings"})) return document.status().error();
+  root.format(kFormat);
+  root.require({"lucerna", "scene", "plan", "settings"});
+  root.read("scene", order.scene);
+  std::string plan;
+  if (root.read("plan", plan)) {
+    const char* end = plan.data() + plan.size();
+    const auto [parsed, fault] = std::from_chars(plan.data(), end, order.plan, 16);
+    if (plan.size() != 16 || fault != std::errc() || parsed != end)
+      root.at("plan").wrong("sixteen hexadecimal digits");
+  }
+  if (root.has("settings")) readSettings(root.at("settings"), order.settings);
+  LUCERNA_TRY_VOID(document.status());
+  return order;
+}
+
+Result<BakeOrder> readOrder(const fs::path& folder) {
+  const fs::path path = orderPath(folder);
+  std::error_code none;
+  if (!fs::exists(path, none))
+    return error(ErrorKind::Input,
+                 "'{}' holds no unfinished bake: there is no {}; wanted the folder that `lucerna "
+                 "bake --shard` was given",
+                 folder.string(), path.lexically_relative(folder).string());
+  LUCERNA_TRY(text, readText(path));
+  return orderFrom(text, path.string());
+}
+
+Status keepOrder(const fs::path& folder, const BakeOrder& order) {
+  const fs::path path = orderPath(folder);
+  std::error_code none;
+  if (!fs::exists(path, none)) return writeText(path, toJson(order));
+  LUCERNA_TRY(there, readOrder(folder));
+  return checkSame(there, order, folder);
+}
+
+}  // namespace lucerna::bake

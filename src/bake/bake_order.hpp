@@ -1,0 +1,34 @@
+// DIR/work/bake.json: what was asked for, so that shards, later runs and the merge all do the same.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bake/plan.hpp"
+#include "core/result.hpp"
+
+namespace lucerna::bake {
+
+struct BakeOrder {
+  std::string scene;       // as scene::loadScene() takes it; a file by its absolute path
+  std::uint64_t plan = 0;  // Plan::hash
+  BakeSettings settings;
+};
+
+BakeOrder orderOf(const Plan& plan, const std::string& scene);
+
+// Settings by the names of the command line's flags, as one JSON object's text.
+std::string settingsText(const BakeSettings& settings);
+
+std::string toJson(const BakeOrder& order);
+// Errors (ErrorKind::Input): every fault, one a line.
+Result<BakeOrder> orderFrom(std::string_view text, const std::string& name);
+
+// ErrorKind::Input: there is none, or it is damaged.
+Result<BakeOrder> readOrder(const std::filesystem::path& folder);
+
+// Writes it if there is none. ErrorKind::Usage if there is one of other settings, or of a scene
+// that was another then; it names what differs. The same scene may lie elsewhere.
+Status keepOrder(const std::filesystem::path& folder, const BakeOrder& order);
+
+}  // namespace lucerna::bake

@@ -1,0 +1,108 @@
+// bake.json there and back, what differs, and which shards are missing.
+#include "bake/bake_order.hpp"
+
+#include <gmock/gmock.h>
+
+#include "bake/shards.hpp"
+#include "core/test_folder.hpp"
+
+namespace lucerna::bake {
+namespace {
+
+using ::testing::HasSubstr;
+
+BakeOrder someOrder() {
+  BakeOrder order{.scene = "builtin:cornell", .plan = 0xfedcba9876543210ull, .settings = {}};
+  order.settings.density = 0.1f;
+  order.settings.reach = 12.7f;
+  order.settings.faintest = 1.f / 3.f;
+  order.settings.unwrap = Unwrap::Pairs;
+  order.settings.engine = Engine::Octree;
+  order.settings.pack = {.side = 512, .gap = 3, .mostMaps = 7};
+  order.settings.sampling = {.positions = 4, .lightSamples = 64, .emitterSize = 0.1f};
+  order.settings.sky = vec3(0.1f, 0.2f, 0.7f);
+  order.settings.skyDirections = 64;
+  order.settings.encodings = {Encoding::Png, Encoding::Rgb9e5};
+  order.settings.groups = {"lamps", "always-on"};
+  return order;
+}
+
+TEST(BakeOrder, ComesBackToTheBit) {
+  const BakeOrder order = someOrder();
+  const Result<BakeOrder> back = orderFrom(toJson(order), "bake.json");
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(toJson(*back), toJson(order));
+  EXPECT_EQ(back->plan, order.plan);
+  EXPECT_EQ(back->settings.density, order.settings.density);
+  EXPECT_EQ(back->settings.faintest, order.settings.faintest);
+  EXPECT_EQ(back->settings.reach, order.settings.reach);
+  EXPECT_EQ(back->settings.sampling.emitterSize, order.settings.sampling.emitterSize);
+  EXPECT_EQ(back->settings.sky, order.settings.sky);
+  EXPECT_EQ(back->settings.encodings, order.settings.encodings);
+  EXPECT_EQ(back->settings.groups, order.settings.groups);
+  const Result<BakeOrder> plain =
+      orderFrom(toJson({.scene = "a.obj", .plan = 0, .settings = {}}), "bake.json");
+  ASSERT_TRUE(plain) << plain.error().message;
+  EXPECT_EQ(plain->settings.reach, BakeSettings().reach);
+}
+
+TEST(BakeOrder, NoTornOneIsTaken) {
+  const std::string text = toJson(someOrder());
+  for (std::size_t size = 0; size + 2 < text.size(); ++size)
+    EXPECT_FALSE(orderFrom(text.substr(0, size), "bake.json")) << size;
+}
+
+TEST(BakeOrder, WhatDiffersIsNamed) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder / kWorkFolder);
+  const BakeOrder first = someOrder();
+  ASSERT_TRUE(keepOrder(folder.path(), first));
+  EXPECT_TRUE(keepOrder(folder.path(), first));
+  BakeOrder other = first;
+  other.settings.pack.side = 1024;
+  other.settings.groups.clear();
+  const Status refused = keepOrder(folder.path(), other);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
+  EXPECT_THAT(refused.error().message, HasSubstr("size is 512 there, 1024 here"));
+  EXPECT_THAT(refused.error().message,
+              HasSubstr("lights is [\"lamps\",\"always-on\"] there, none"));
+  BakeOrder moved = first;
+  moved.scene = "elsewhere.obj";
+  EXPECT_TRUE(keepOrder(folder.path(), moved));  // the plan says that it is the same
+  moved.plan = 1;
+  EXPECT_THAT(keepOrder(folder.path(), moved).error().message, HasSubstr("'elsewhere.obj' here"));
+  BakeOrder changed = first;
+  changed.plan = 1;
+  EXPECT_THAT(keepOrder(folder.path(), changed).error().message, HasSubstr("before it changed"));
+}
+
+TEST(Shards, ShareOutAllUnitsOnce) {
+  for (const int count : {1, 2, 5, 40}) {
+    std::vector<int> taken(17, 0);
+    for (int i = 1; i <= count; ++i)
+      for (const std::uint32_t unit : unitsOf(taken.size(), {.index = i, .count = count}))
+        ++taken[unit];
+    EXPECT_EQ(std::ranges::count(taken, 1), 17) << count;
+  }
+}
+
+TEST(Shards, WhatIsMissingIsNamed) {
+  std::vector<bool> done(400, true);
+  const std::vector<std::filesystem::path> logs{"w/shard-1-of-5.log", "w/shard-2-of-5.log",
+                                                "w/shard-4-of-5.log", "w/shard-5-of-5.log",
+                                                "w/shard-1-of-1.log"};
+  for (const std::uint32_t unit : unitsOf(done.size(), {.index = 3, .count = 5}))
+    done[unit] = false;
+  EXPECT_EQ(describeMissing(logs, done), "shard 3 of 5 has no log");
+  for (std::uint32_t i = 0; i < 17; ++i) done[1 + 5 * i] = false;
+  EXPECT_EQ(describeMissing(logs, done),
+            "shard 2 of 5 lacks 17 of 80 units; shard 3 of 5 has no log");
+  EXPECT_EQ(describeMissing({}, done), "there is no log of any shard");
+  done.assign(400, false);
+  EXPECT_THAT(describeMissing(std::vector<std::filesystem::path>{"w/shard-9-of-400.log"}, done),
+              HasSubstr("; 380 more shards"));
+}
+
+}  // namespace
+}  // namespace lucerna::bake

@@ -1,0 +1,467 @@
+#!/usr/bin/env python3
+"""lucerna bake and lucerna lightmap from outside: whole, in parts, killed, on several threads, the same files come
+out; and what is missing or damaged is named.
+
+Usage: bake_test.py PROGRAM [unittest arguments]
+"""
+import hashlib
+import json
+import os
+import pathlib
+import random
+import re
+import resource
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = ""
+SCENE = "builtin:cornell"
+SMALL = ["--density", "40", "--size", "128", "--preset", "preview"]
+# Light that takes a second or two, and several units for each of five shards.
+LONG = ["--density", "400", "--size", "1024", "--preset", "standard"]
+DOCS = pathlib.Path(__file__).resolve().parents[2] / "docs" / "user"
+
+
+def faults(value, schema, place="manifest"):
+    """What JSON schema's words that ours use find wrong."""
+    kinds = {"object": dict, "array": list, "string": str, "integer": int, "number": (int, float)}
+    kind = schema.get("type")
+    if kind and (not isinstance(value, kinds[kind]) or isinstance(value, bool)):
+        return [f"{place}: is no {kind}"]
+    found = []
+    if "const" in schema and value != schema["const"]:
+        found.append(f"{place}: is not {schema['const']}")
+    if "enum" in schema and value not in schema["enum"]:
+        found.append(f"{place}: is none of {schema['enum']}")
+    if "pattern" in schema and not re.search(schema["pattern"], value):
+        found.append(f"{place}: does not match {schema['pattern']}")
+    if value < schema["minimum"] if "minimum" in schema else False:
+        found.append(f"{place}: is below {schema['minimum']}")
+    if isinstance(value, dict):
+        properties = schema.get("properties", {})
+        found += [f"{place}: lacks {key}" for key in schema.get("required", []) if key not in value]
+        for key, member in value.items():
+            if key in properties:
+                found += faults(member, properties[key], f"{place}/{key}")
+            elif schema.get("additionalProperties") is False:
+                found.append(f"{place}: {key} is unknown")
+    if isinstance(value, list):
+        if len(value) < schema.get("minItems", 0) or len(value) > schema.get("maxItems", len(value)):
+            found.append(f"{place}: has {len(value)} items")
+        for i, item in enumerate(value):
+            found += faults(item, schema.get("items", {}), f"{place}/{i}")
+    return found
+
+
+def schema():
+    """The manifest's, with what it refers to in place."""
+    whole = json.loads((DOCS / "lightmap.schema.json").read_text())
+
+    def resolved(part):
+        if isinstance(part, dict):
+            if "$ref" in part:
+                return resolved(whole["$defs"][part["$ref"].removeprefix("#/$defs/")])
+            return {key: resolved(each) for key, each in part.items() if key != "$defs"}
+        return [resolved(each) for each in part] if isinstance(part, list) else part
+    return resolved(whole)
+
+
+class BakeTest(unittest.TestCase):
+    maxDiff = None
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="lucerna-bake-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def lucerna(self, *arguments, **options):
+        return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=240,
+                              cwd=self.folder, check=False, **options)
+
+    def bake(self, folder, *flags, scene=SCENE, **options):
+        return self.lucerna("bake", scene, "-o", folder, *flags, **options)
+
+    def ok(self, run):
+        self.assertEqual(run.returncode, 0, run.stderr)
+        return run
+
+    def fails(self, code, run, *words):
+        self.assertEqual(run.returncode, code, run.stderr)
+        for word in words:
+            self.assertIn(word, run.stderr)
+        self.assertEqual(run.stderr.count("error:"), 1, run.stderr)
+
+    def hashes(self, folder):
+        """Of every file in it, by name."""
+        root = self.folder / folder
+        return {str(path.relative_to(root)): hashlib.sha256(path.read_bytes()).hexdigest()
+                for path in sorted(root.rglob("*")) if path.is_file()}
+
+    def manifest(self, folder):
+        return json.loads((self.folder / folder / "manifest.json").read_text())
+
+    def whole(self, folder, *flags):
+        """The hashes of a plain bake, once it is seen that its manifest names all of its files."""
+        self.ok(self.bake(folder, *flags))
+        found, manifest = self.hashes(folder), self.manifest(folder)
+        named = {"manifest.json", manifest["layout"]["file"]}
+        for entry in manifest["maps"]:
+            named |= {entry["master"]["file"], *(each["file"] for each in entry["encoded"])}
+        named |= {each["file"] for each in [*manifest["patches"], *manifest["gltf"]]}
+        self.assertEqual(set(found), named)
+        self.assertEqual([path for path in (self.folder / folder).iterdir() if path.is_dir()], [])
+        return found
+
+    # The same files, however they were made
+
+    def test_threads_do_not_matter(self):
+        plain = self.whole("plain", *SMALL)
+        for threads in (1, 2, 4):
+            self.ok(self.bake(f"t{threads}", *SMALL, "--threads", threads))
+            self.assertEqual(self.hashes(f"t{threads}"), plain)
+
+    def test_shards_do_not_matter(self):
+        plain = self.whole("plain", *SMALL)
+        for count in (1, 2, 5):
+            folder = f"s{count}"
+            for shard in range(count, 0, -1):
+                self.ok(self.bake(folder, *SMALL, "--shard", f"{shard}/{count}"))
+            if count > 1:
+                self.assertFalse((self.folder / folder / "manifest.json").exists())
+                document = json.loads(self.ok(self.lucerna("lightmap", "merge", folder, "--json")).stdout)
+                self.assertTrue(document["finished"])
+            self.assertEqual(self.hashes(folder), plain)
+        again = self.ok(self.lucerna("lightmap", "merge", "s5"))
+        self.assertIn("nothing is left to merge", again.stderr)
+
+    def test_shards_may_be_divided_anew(self):
+        plain = self.whole("plain", *SMALL)
+        self.ok(self.bake("d", *SMALL, "--shard", "2/3"))
+        document = json.loads(self.ok(self.bake("d", *SMALL, "--json")).stdout)
+        self.assertGreater(document["bake"]["units_before"], 0)
+        self.assertEqual(self.hashes("d"), plain)
+
+    def end(self, folder, sign, reached, *flags):
+        """Starts a bake, ends it once reached() is true, and gives its exit code."""
+        process = subprocess.Popen([PROGRAM, "bake", SCENE, "-o", folder, *flags], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 120
+        while process.poll() is None and not reached() and time.monotonic() < deadline:
+            time.sleep(0.0005)
+        process.send_signal(sign)
+        process.communicate(timeout=120)
+        return process.returncode
+
+    def logged(self, folder, count):
+        """Whether the log of the only shard has so many bytes."""
+        log = self.folder / folder / "work" / "shard-1-of-1.log"
+
+        def reached():
+            try:
+                return log.stat().st_size >= count
+            except FileNotFoundError:
+                return False
+        return reached
+
+    def written(self, folder, count):
+        """Whether so many maps are written or being written."""
+        return lambda: len(list((self.folder / folder).glob("*map*"))) >= count
+
+    def test_what_is_killed_goes_on(self):
+        plain = self.whole("plain", *LONG)
+        seed = random.randrange(1 << 30)
+        chance = random.Random(seed)
+        kills = 0
+        for number in range(5):
+            folder = f"k{number}"
+            bytes_, files = sorted(chance.sample(range(1, 12 << 20), 2)), chance.randint(1, 7)
+            moments = [self.logged(folder, bytes_[0]), self.logged(folder, bytes_[1]),
+                       self.written(folder, files)]
+            for reached in moments:
+                kills += self.end(folder, signal.SIGKILL, reached, *LONG, "--resume") == -signal.SIGKILL
+            self.ok(self.bake(folder, *LONG, "--resume"))
+            self.assertEqual(self.hashes(folder), plain, f"seed {seed}: at {bytes_} bytes, {files} maps")
+        self.assertGreater(kills, 5, f"seed {seed}: most bakes were over before they were killed")
+
+    def test_interrupt_keeps_what_is_done(self):
+        plain = self.whole("plain", *LONG)
+        self.assertEqual(self.end("i", signal.SIGINT, self.logged("i", 1 << 16), *LONG), 130)
+        self.assertFalse((self.folder / "i" / "manifest.json").exists())
+        self.fails(2, self.bake("i", *LONG), "--resume")
+        document = json.loads(self.ok(self.bake("i", *LONG, "--resume", "--json")).stdout)
+        self.assertGreater(document["bake"]["units_before"], 0)
+        self.assertEqual(self.hashes("i"), plain)
+
+    def test_leftovers_of_a_kill_while_writing_are_cleared(self):
+        plain = self.whole("plain", *SMALL)
+        self.ok(self.bake("l", *SMALL, "--shard", "1/2"))
+        (self.folder / "l" / ".map-000.tmp-1-0.exr").write_bytes(b"half of a map")
+        self.ok(self.bake("l", *SMALL, "--shard", "2/2"))
+        self.ok(self.lucerna("lightmap", "merge", "l"))
+        self.assertEqual(self.hashes("l"), plain)
+
+    def test_finished_is_finished(self):
+        plain = self.whole("f", *SMALL)
+        run = self.ok(self.bake("f", *SMALL, "--resume", "--json"))
+        self.assertIn("'f' is finished", run.stderr)
+        self.assertTrue(json.loads(run.stdout)["finished"])
+        self.assertEqual(self.hashes("f"), plain)
+        self.fails(2, self.bake("f", *SMALL, "--padding", 3, "--resume"), "another scene or other settings")
+        self.assertEqual(self.hashes("f"), plain)
+        (self.folder / "f" / "map-000.exr").write_bytes(b"")
+        self.assertIn("map-000.exr: is damaged", self.ok(self.bake("f", *SMALL, "--resume")).stderr)
+        self.assertEqual(self.hashes("f"), plain)
+
+    def test_a_new_bake_replaces_all_of_an_old_one(self):
+        self.whole("r", "--density", "80", "--size", "64", "--preset", "preview")
+        self.assertGreater(len(self.manifest("r")["maps"]), 1)
+        self.assertEqual(self.whole("r", *SMALL), self.whole("plain", *SMALL))
+
+    # What does not fit together
+
+    def test_other_settings_are_named(self):
+        self.ok(self.bake("o", *SMALL, "--shard", "1/2"))
+        self.fails(2, self.bake("o", "--density", "41", *SMALL[2:], "--shard", "2/2"),
+                   "density is 40 there, 41 here", "remove 'o/work'")
+        self.fails(2, self.bake("o", *SMALL, "--reach", 3, "--shard", "2/2"), "reach is none there, 3 here")
+        self.fails(2, self.bake("o", *SMALL, "--shard", "2/2", scene="builtin:cornell?boxes=0"), "another scene",
+                   "'builtin:cornell' there", "'builtin:cornell?boxes=0' here")
+        self.assertEqual(sorted(os.listdir(self.folder / "o" / "work")), ["bake.json", "shard-1-of-2.log"])
+
+    def test_a_scene_file_that_changed_is_refused(self):
+        lamp = {"kind": "point", "intensity": 100, "position": [0, 1, 0]}
+
+        def write(name, lamp):
+            (self.folder / name).write_text(json.dumps(
+                {"lucerna": "scene/1", "include": [{"file": "box.obj"}], "lights": [lamp]}))
+        (self.folder / "box.obj").write_text("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+        write("a.json", lamp)
+        self.ok(self.bake("c", *SMALL, "--shard", "1/2", scene="a.json"))
+        self.assertEqual(json.loads((self.folder / "c/work/bake.json").read_text())["scene"],
+                         str((self.folder / "a.json").resolve()))
+        write("a.json", {**lamp, "intensity": 50})
+        self.fails(2, self.bake("c", *SMALL, "--shard", "2/2", scene="a.json"), "before it changed")
+        self.fails(2, self.lucerna("lightmap", "merge", "c"), "before it changed")
+        write("a.json", lamp)
+        os.makedirs(self.folder / "elsewhere")  # the same scene, from another place
+        (self.folder / "elsewhere" / "box.obj").write_text((self.folder / "box.obj").read_text())
+        (self.folder / "elsewhere" / "a.json").write_text((self.folder / "a.json").read_text())
+        self.ok(self.bake("c", *SMALL, "--shard", "2/2", scene="elsewhere/a.json"))
+        self.ok(self.lucerna("lightmap", "merge", "c", "--scene", "elsewhere/a.json"))
+
+    def test_missing_parts_are_named(self):
+        self.fails(3, self.lucerna("lightmap", "merge", "nothing"), "work/bake.json")
+        for shard in (1, 2, 4, 5):
+            self.ok(self.bake("m", *SMALL, "--shard", f"{shard}/5"))
+        self.fails(1, self.lucerna("lightmap", "merge", "m"), "shard 3 of 5 has no log", "--resume")
+        self.assertFalse((self.folder / "m" / "manifest.json").exists())
+        run = self.lucerna("lightmap", "merge", "m", "--json")
+        self.assertIn("shard 3 of 5", json.loads(run.stdout)["error"]["message"])
+
+    def test_damage_is_named_and_never_used(self):
+        plain = self.whole("plain", *SMALL)
+        whole = None
+        chance = random.Random(7)
+        for number in range(12):
+            folder = f"b{number}"
+            for shard in (1, 2):
+                self.ok(self.bake(folder, *SMALL, "--shard", f"{shard}/2"))
+            log = self.folder / folder / "work" / "shard-2-of-2.log"
+            content = bytearray(log.read_bytes())
+            whole = whole or bytes(content)
+            self.assertEqual(bytes(content), whole)
+            if number == 11:
+                log.write_bytes(content[:-5])  # torn
+                at = len(content) - 5
+            else:
+                at = (0, 12, 33, 36, 48, 60)[number] if number < 6 else chance.randrange(64, len(content))
+                content[at] ^= 1 << chance.randrange(8)
+                log.write_bytes(content)
+            run = self.lucerna("lightmap", "merge", folder)
+            self.fails(1, run, "shard 2 of 2 lacks", "--resume")
+            if number < 11:
+                self.assertLessEqual(int(re.search(r"damaged \w+ at byte (\d+)", run.stderr)[1]), at)
+            self.assertFalse((self.folder / folder / "manifest.json").exists())
+            self.ok(self.bake(folder, *SMALL, "--shard", "2/2", "--resume"))
+            self.ok(self.lucerna("lightmap", "merge", folder))
+            self.assertEqual(self.hashes(folder), plain, f"byte {at}")
+
+    # Where it cannot be written
+
+    def test_folders_that_will_not_do(self):
+        (self.folder / "file").write_text("")
+        self.fails(2, self.bake("file", *SMALL), "'file' is a file")
+        self.fails(1, self.bake("file/below", *SMALL), "no folder that can be written")
+        os.makedirs(self.folder / "other")
+        (self.folder / "other" / "letter.txt").write_text("")
+        self.fails(2, self.bake("other", *SMALL), "none of a lightmap")
+        self.fails(1, self.bake("/proc/lightmap", *SMALL), "/proc")
+        self.fails(2, self.lucerna("bake", SCENE), "--output")
+        self.assertEqual(sorted(os.listdir(self.folder)), ["file", "other"])
+
+    def limited(self, bytes_):
+        return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_, bytes_))}
+
+    def test_a_full_disk_is_one_message_and_loses_nothing(self):
+        plain = self.whole("plain", *SMALL)
+        largest = max(path.stat().st_size for path in (self.folder / "plain").iterdir())
+        # The log does not fit.
+        self.fails(1, self.bake("log", *SMALL, **self.limited(3000)), "cannot be written", "--resume")
+        self.ok(self.bake("log", *SMALL, "--resume"))
+        self.assertEqual(self.hashes("log"), plain)
+        # The largest file of the lightmap does not.
+        for shard in (1, 2):
+            self.ok(self.bake("map", *SMALL, "--shard", f"{shard}/2"))
+        self.fails(1, self.lucerna("lightmap", "merge", "map", **self.limited(largest - 1)), "writing failed")
+        self.assertFalse((self.folder / "map" / "manifest.json").exists())
+        self.assertEqual([path.name for path in (self.folder / "map").iterdir() if path.name.startswith(".")], [])
+        self.ok(self.lucerna("lightmap", "merge", "map"))
+        self.assertEqual(self.hashes("map"), plain)
+
+    # Scenes and settings
+
+    def test_unknown_groups_are_named_and_nothing_is_made(self):
+        self.fails(2, self.bake("g", *SMALL, "--lights", "kitchen"), "no light group 'kitchen'", "always-on")
+        self.assertFalse((self.folder / "g").exists())
+
+    def test_no_lights_is_a_warning(self):
+        (self.folder / "plain.obj").write_text("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+        (self.folder / "dark.json").write_text(json.dumps(
+            {"lucerna": "scene/1", "include": [{"file": "plain.obj"}], "ambient": [0.1, 0.1, 0.1]}))
+        run = self.ok(self.bake("dark", *SMALL, scene="dark.json"))
+        self.assertIn("no lights to bake", run.stderr)
+        table = json.loads(self.ok(self.lucerna("lightmap", "inspect", "dark", "--json")).stdout)
+        self.assertEqual([each["irradiance"]["max"] for each in table["maps"]], [0] * len(table["maps"]))
+
+    def test_too_many_maps_say_what_fits(self):
+        flags = ["--size", "64", "--most-maps", "2", "--preset", "preview"]
+        run = self.bake("many", "--density", "200", *flags)
+        self.assertEqual(run.returncode, 3, run.stderr)
+        fits = re.search(r"--density ([\d.]+) fits", run.stderr)
+        self.assertTrue(fits, run.stderr)
+        self.assertFalse((self.folder / "many").exists())
+        self.ok(self.bake("many", "--density", fits[1], *flags))
+        self.assertEqual(self.bake("more", "--density", 1.25 * float(fits[1]), *flags).returncode, 3)
+
+    # Looking
+
+    def test_a_dry_run_says_all_and_writes_nothing(self):
+        (self.folder / "odd.obj").write_text(
+            "v 0 0 0\nv 4 0 0\nv 0 0 -4\nv nan 0 0\nv 8 0 0\nf 1 2 3\nf 2 3 1\nf 1 2 5\n")
+        before = sorted(os.listdir(self.folder))
+        run = self.ok(self.lucerna("bake", "odd.obj", "--density", "10", "--dry-run", "--json"))
+        document = json.loads(run.stdout)
+        self.assertEqual(document["found"]["duplicate"], 1)
+        self.assertEqual(document["found"]["degenerate"], 1)
+        document = json.loads(self.ok(self.bake("d", *LONG, "--dry-run", "--json")).stdout)
+        self.assertGreater(document["estimate"]["light_seconds"], 0)
+        self.assertGreater(document["estimate"]["log_bytes"], 0)
+        self.assertEqual(document["found"]["lights_inside"], [])
+        text = self.ok(self.bake("d", *SMALL, "--dry-run")).stdout
+        for word in ("charts", "texels", "maps", "estimate", "memory"):
+            self.assertIn(word, text)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_a_light_inside_a_solid_is_found(self):
+        corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
+        sides = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"]
+        (self.folder / "box.obj").write_text(
+            "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {side}\n" for side in sides))
+        (self.folder / "lamps.json").write_text(json.dumps(
+            {"lucerna": "scene/1", "include": [{"file": "box.obj"}],
+             "lights": [{"name": "inside", "kind": "point", "intensity": 1, "position": [0.1, 0.2, 0]},
+                        {"name": "outside", "kind": "point", "intensity": 1, "position": [0, 3, 0]}]}))
+        found = json.loads(self.ok(self.lucerna("bake", "lamps.json", "--dry-run", "--json")).stdout)["found"]
+        self.assertEqual(found["lights_inside"], ["inside"])
+
+    def test_inspect_draws_every_map(self):
+        self.whole("p", *SMALL)
+        manifest = self.manifest("p")
+        run = self.ok(self.lucerna("lightmap", "inspect", "p", "-o", "look", "--scene", SCENE, "--json"))
+        table = json.loads(run.stdout)
+        self.assertEqual(len(table["maps"]), len(manifest["maps"]))
+        for each, entry in zip(table["maps"], manifest["maps"]):
+            self.assertEqual(each["overlaps"], 0)
+            self.assertEqual(each["unsound"], 0)
+            # Those inside of solids are not in the manifest's.
+            self.assertGreaterEqual(each["texels"], entry["texels"])
+            self.assertLess(each["texels"], 1.2 * entry["texels"])
+            self.assertLessEqual(each["irradiance"]["max"], max(entry["largest"]))
+            self.assertAlmostEqual(each["density"]["min"], 40, delta=1)
+            self.assertAlmostEqual(each["density"]["max"], 40, delta=1)
+            self.assertEqual(each["bytes"], (self.folder / "p" / each["file"]).stat().st_size)
+        wanted = {f"{what}-{number:03}.png" for what in ("light", "charts", "validity", "seams", "density")
+                  for number in range(len(manifest["maps"]))}
+        self.assertEqual(set(os.listdir(self.folder / "look")), wanted)
+        for name in wanted:
+            size = struct.unpack(">II", (self.folder / "look" / name).read_bytes()[16:24])
+            self.assertEqual(size, (manifest["side"],) * 2)
+        self.assertIn("map-000.exr", self.ok(self.lucerna("lightmap", "inspect", "p")).stdout)
+
+    def test_groups_and_copies_are_drawn_and_checked(self):
+        (self.folder / "floor.obj").write_text("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+        (self.folder / "lamps.json").write_text(json.dumps(
+            {"lucerna": "scene/1", "include": [{"file": "floor.obj"}],
+             "lights": [{"name": "a", "kind": "point", "intensity": 100, "position": [0, 1, 0]},
+                        {"name": "b", "kind": "point", "intensity": 100, "position": [0.5, 1, 0], "group": "desk"}]}))
+        flags = [*SMALL, "--encode", "bc6h,png"]
+        self.ok(self.bake("plain", *flags, scene="lamps.json"))
+        self.ok(self.bake("parts", *flags, "--shard", "1/2", scene="lamps.json"))
+        self.fails(2, self.bake("parts", *SMALL, "--shard", "2/2", scene="lamps.json"), "encode", "none here")
+        self.ok(self.bake("parts", *flags, "--shard", "2/2", scene="lamps.json"))
+        self.ok(self.lucerna("lightmap", "merge", "parts"))
+        self.assertEqual(self.hashes("parts"), self.hashes("plain"))
+        self.assertEqual(faults(self.manifest("plain"), schema()), [])
+        self.fails(2, self.bake("plain", *SMALL, "--resume", scene="lamps.json"), "other settings")
+        table = json.loads(self.ok(self.lucerna("lightmap", "inspect", "plain", "-o", "look", "--json")).stdout)
+        self.assertEqual([each["group"] for each in table["patches"]], ["desk"])
+        self.assertTrue((self.folder / "look" / "patch-000-000.png").exists())
+        self.assertGreater(table["maps"][0]["bytes"], (self.folder / "plain" / "map-000.exr").stat().st_size)
+        for name in ("map-000.bc6h.ktx2", "patch-000.bin"):
+            path = self.folder / "plain" / name
+            sound = path.read_bytes()
+            path.write_bytes(sound[:-1] + bytes([sound[-1] ^ 1]))
+            self.fails(3, self.lucerna("lightmap", "inspect", "plain"), name, "damaged")
+            path.write_bytes(sound)
+
+    def test_damaged_lightmaps_are_never_used(self):
+        self.whole("q", *SMALL)
+        chance = random.Random(3)
+        for name in sorted(self.hashes("q")):
+            path = self.folder / "q" / name
+            sound = path.read_bytes()
+            for _ in range(20 if name == "manifest.json" else 3):
+                at = chance.randrange(len(sound))
+                if sound[at:at + 1].isspace():
+                    continue  # of JSON, that says nothing
+                flipped = sound[:at] + bytes([sound[at] ^ 1 << chance.randrange(8)]) + sound[at + 1:]
+                for damaged in (flipped, sound[:at] + sound[at + 1:], sound[:at]):
+                    path.write_bytes(damaged)
+                    run = self.lucerna("lightmap", "inspect", "q")
+                    self.assertEqual(run.returncode, 3, f"{name}, byte {at}: {run.stderr}{run.stdout}")
+                    self.assertIn(name, run.stderr)
+                    self.assertEqual(run.stdout, "")
+            path.unlink()
+            self.fails(3, self.lucerna("lightmap", "inspect", "q"), name)
+            path.write_bytes(sound)
+        self.ok(self.lucerna("lightmap", "inspect", "q"))
+
+    def test_the_manifest_is_as_its_schema_says(self):
+        self.whole("s", *SMALL)
+        manifest, whole = self.manifest("s"), schema()
+        self.assertEqual(faults(manifest, whole), [])
+        self.assertEqual(faults({**manifest, "colour": 1}, whole), ["manifest: colour is unknown"])
+        self.assertEqual(faults({**manifest, "side": "1"}, whole), ["manifest/side: is no integer"])
+        page = (DOCS / "lightmaps.md").read_text()
+        for key in [*whole["properties"], *whole["properties"]["settings"]["properties"]]:
+            self.assertIn(f"`{key}`", page)
+
+
+if __name__ == "__main__":
+    PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)
