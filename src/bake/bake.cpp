@@ -154,6 +154,7 @@ Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
                  folder.string(), missing, done.size(),
                  sources.empty() ? "no logs" : fmt::format("{}", fmt::join(sources, ", ")));
   dilate(baked);
+  report.seams = closeSeams(plan, baked);
   LUCERNA_TRY_VOID(writeLightmap(plan, baked, folder, report.texels));
   std::error_code ignored;
   fs::remove_all(folder / kWork, ignored);
