@@ -14,8 +14,8 @@ namespace {
 constexpr float kSameNormal = 0.99f;
 // Of the triangles' own normals: beyond 60 degrees one throws shadow onto the other.
 constexpr float kBent = 0.5f;
-// Sine of the angle from which a third triangle stands up.
-constexpr float kStands = 0.05f;
+// Texels that SeamSide::offW leads away, if the triangle is not smaller.
+constexpr float kOff = 0.25f;
 // Texels by which corners of one chart are apart.
 constexpr float kApart = 1e-3f;
 // Of an edge that very many share, a side is joined with one of this many next ones.
@@ -120,16 +120,6 @@ class Finder {
            agree(a.cornerAtLow(), b.cornerAtLow()) && agree(a.cornerAtHigh(), b.cornerAtHigh());
   }
 
-  // Whether a triangle other than these rises from their edge, in front of both.
-  bool walled(const Side& a, const Side& b, std::span<const Side> sides) const {
-    return std::ranges::any_of(sides, [&](const Side& c) {
-      if (c.triangle == a.triangle || c.triangle == b.triangle) return false;
-      const vec3 up = position(c.triangle, c.apex()) - position(c.triangle, c.first);
-      const float least = kStands * glm::length(up);
-      return glm::dot(up, fronts_[a.triangle]) > least && glm::dot(up, fronts_[b.triangle]) > least;
-    });
-  }
-
   bool together(const Side& a, const Side& b) const {
     const auto near = [&](std::uint8_t ofA, std::uint8_t ofB) {
       return glm::distance(inChart(a, ofA), inChart(b, ofB)) < kApart;
@@ -138,14 +128,28 @@ class Finder {
            near(a.cornerAtLow(), b.cornerAtLow()) && near(a.cornerAtHigh(), b.cornerAtHigh());
   }
 
-  SeamSide sideInMap(const Side& side) const {
+  // Unit, in the triangle's plane, from the edge to the apex.
+  vec3 inward(const Side& side) const {
+    const vec3 along = position(side.triangle, side.second) - position(side.triangle, side.first);
+    return glm::normalize(glm::cross(fronts_[side.triangle], along));
+  }
+  // m.
+  float mostOff(const Side& side) const {
+    const float height = glm::dot(
+        inward(side), position(side.triangle, side.apex()) - position(side.triangle, side.first));
+    return std::min(kOff / plan_.charts.charts[places_[side.triangle].chart].density,
+                    0.5f * height);
+  }
+
+  SeamSide sideOf(const Side& side, float off) const {
     const std::uint32_t chart = places_[side.triangle].chart;
     const auto most = static_cast<float>(plan_.settings.pack.side);
     const auto at = [&](std::uint8_t corner) {
       return glm::clamp(placed(plan_, chart, inChart(side, corner)), 0.f, most);
     };
     return {.map = plan_.packed.packing.places[chart].map,
-            .ends = {at(side.cornerAtLow()), at(side.cornerAtHigh())}};
+            .ends = {at(side.cornerAtLow()), at(side.cornerAtHigh())},
+            .offW = off * (fronts_[side.triangle] + inward(side))};
   }
 
   // The sides of one edge: what goes on most straightly is joined first.
@@ -168,8 +172,11 @@ class Finder {
       if (joined[pair.a] || joined[pair.b]) continue;
       joined[pair.a] = joined[pair.b] = true;
       const Side &a = sides[pair.a], &b = sides[pair.b];
-      if (!together(a, b) && !walled(a, b, sides))
-        seams.push_back({.sides = {sideInMap(a), sideInMap(b)}});
+      if (together(a, b)) continue;
+      const float off = std::min(mostOff(a), mostOff(b));
+      seams.push_back(
+          {.endsW = {position(a.triangle, a.cornerAtLow()), position(a.triangle, a.cornerAtHigh())},
+           .sides = {sideOf(a, off), sideOf(b, off)}});
     }
   }
 

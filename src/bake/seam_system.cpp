@@ -10,8 +10,6 @@
 namespace lucerna::bake {
 namespace {
 
-// Of a seam; a lookup's course along it bends once or twice a texel.
-constexpr float kSamplesPerTexel = 4.f;
 // Against the samples of a texel of seam, which count 1 together.
 constexpr float kMeasured = 2e-3f, kUnmeasured = 2e-4f;
 
@@ -35,19 +33,6 @@ std::array<Tap, 4> lookup(const SeamSide& side, float along, int mapSide) {
         .weight = (step.x == 1 ? f.x : 1.f - f.x) * (step.y == 1 ? f.y : 1.f - f.y)};
   }
   return taps;
-}
-
-// Calls visit(taps of one side, of the other, texels of seam) for points along a seam. `extra` of
-// them more lie between those without.
-template <typename Visit>
-void forSamples(const Seam& seam, int extra, int mapSide, Visit visit) {
-  const int count =
-      std::max(static_cast<int>(std::ceil(seam.length() * kSamplesPerTexel)), 1) + extra;
-  for (int i = 0; i < count; ++i) {
-    const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-    visit(lookup(seam.sides[0], along, mapSide), lookup(seam.sides[1], along, mapSide),
-          seam.length() / static_cast<float>(count));
-  }
 }
 
 // Numbers of marked texels by map, row and column.
@@ -91,20 +76,21 @@ class TexelNumbers {
   std::vector<std::uint32_t> before_;  // of each word: how many are marked in earlier ones
 };
 
-std::vector<SeamSample> samplesOf(std::span<const Seam> seams, int extra,
+std::vector<SeamSample> samplesOf(std::span<const Seam> seams, std::span<const SeamPoint> points,
                                   const TexelNumbers& numbers, int mapSide) {
   std::vector<SeamSample> samples;
-  for (const Seam& seam : seams)
-    forSamples(seam, extra, mapSide, [&](const auto& a, const auto& b, float share) {
-      SeamSample& sample = samples.emplace_back();
-      sample.share = share;
-      for (std::size_t i = 0; i < 4; ++i) {
-        sample.texels[i] = numbers.number(a[i].place);
-        sample.weights[i] = a[i].weight;
-        sample.texels[4 + i] = numbers.number(b[i].place);
-        sample.weights[4 + i] = -b[i].weight;
+  samples.reserve(points.size());
+  for (const SeamPoint& point : points) {
+    SeamSample& sample = samples.emplace_back();
+    sample.share = point.share;
+    std::size_t at = 0;
+    for (const SeamSide& side : seams[point.seam].sides)
+      for (const Tap& tap : lookup(side, point.along, mapSide)) {
+        sample.texels[at] = numbers.number(tap.place);
+        sample.weights[at] = at < 4 ? tap.weight : -tap.weight;
+        ++at;
       }
-    });
+  }
   return samples;
 }
 
@@ -159,18 +145,17 @@ void part(SeamSystem& system) {
 
 }  // namespace
 
-SeamSystem seamSystem(std::span<const Seam> seams, const MapTexels& texels) {
+SeamSystem seamSystem(std::span<const Seam> seams, std::span<const SeamPoint> points,
+                      std::span<const SeamPoint> between, const MapTexels& texels) {
   TexelNumbers numbers(texels.touched.size(), texels.side);
-  for (const Seam& seam : seams)
-    for (const int extra : {0, 1})
-      forSamples(seam, extra, texels.side, [&](const auto& a, const auto& b, float) {
-        for (const Tap& tap : a) numbers.mark(tap.place);
-        for (const Tap& tap : b) numbers.mark(tap.place);
-      });
+  for (const auto list : {points, between})
+    for (const SeamPoint& point : list)
+      for (const SeamSide& side : seams[point.seam].sides)
+        for (const Tap& tap : lookup(side, point.along, texels.side)) numbers.mark(tap.place);
   SeamSystem system;
   system.places = numbers.count();
-  system.samples = samplesOf(seams, 0, numbers, texels.side);
-  system.measuring = samplesOf(seams, 1, numbers, texels.side);
+  system.samples = samplesOf(seams, points, numbers, texels.side);
+  system.measuring = samplesOf(seams, between, numbers, texels.side);
   part(system);
   for (const TexelPlace& place : system.places)
     system.stiffness.push_back(texels.has(place.map, {place.x, place.y}) ? kMeasured : kUnmeasured);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bake/assemble.hpp"
-#include "bake/find_seams.hpp"
+#include "bake/seam_points.hpp"
 
 namespace lucerna::bake {
 
@@ -43,7 +43,9 @@ struct SeamSystem {
   std::vector<std::uint32_t> order;  // unknowns by map, row, column
 };
 
-// A texel that the scene does not touch was not measured: it may change more.
-SeamSystem seamSystem(std::span<const Seam> seams, const MapTexels& texels);
+// points, between: as seamPoints() gives them, what is solved and what is measured. A texel that
+// the scene does not touch was not lit itself: it may change more.
+SeamSystem seamSystem(std::span<const Seam> seams, std::span<const SeamPoint> points,
+                      std::span<const SeamPoint> between, const MapTexels& texels);
 
 }  // namespace lucerna::bake

@@ -64,19 +64,24 @@ std::vector<dvec3> sumOf(const SeamSystem& system, BakedLight& baked, const Ligh
   return sum;
 }
 
-SeamSteps stepsOf(const SeamSystem& system, std::vector<dvec3> values) {
-  for (dvec3& value : values) value = glm::clamp(value, 0., 1.);
+// The largest channel's, as shown.
+double stepAt(const SeamSample& sample, std::span<const dvec3> values) {
+  std::array<dvec3, 2> sides{dvec3(0.), dvec3(0.)};
+  for (std::size_t k = 0; k < 8; ++k)
+    sides[k / 4] += double{std::abs(sample.weights[k])} * values[sample.texels[k]];
+  const dvec3 step = glm::abs(glm::clamp(sides[0], 0., 1.) - glm::clamp(sides[1], 0., 1.));
+  return std::max({step.x, step.y, step.z});
+}
+
+SeamSteps stepsOf(const SeamSystem& system, std::span<const dvec3> values) {
   struct Step {
     double size, share;
   };
   std::vector<Step> steps;
   double all = 0.;
-  for (const SeamSample& s : system.measuring) {
-    dvec3 difference(0.);
-    for (std::size_t k = 0; k < 8; ++k) difference += double{s.weights[k]} * values[s.texels[k]];
-    difference = glm::abs(difference);
-    steps.push_back({std::max({difference.x, difference.y, difference.z}), s.share});
-    all += s.share;
+  for (const SeamSample& sample : system.measuring) {
+    steps.push_back({stepAt(sample, values), sample.share});
+    all += sample.share;
   }
   std::ranges::sort(steps, {}, &Step::size);
   SeamSteps found;
@@ -153,7 +158,10 @@ SeamReport closeSeams(const Plan& plan, BakedLight& baked) {
   const auto start = std::chrono::steady_clock::now();
   const Light light(*plan.world.scene);
   const std::vector<Seam> seams = findSeams(plan);
-  const SeamSystem system = seamSystem(seams, baked.texels);
+  if (seams.empty()) return {};
+  const auto tracer = makeEmbreeTracer(plan.world);
+  const SeamSystem system =
+      seamSystem(seams, seamPoints(seams, 0, *tracer), seamPoints(seams, 1, *tracer), baked.texels);
   SeamReport report;
   report.seams = seams.size();
   report.texels = system.places.size();

@@ -14,8 +14,8 @@ using glm::dvec3;
 // Of the gradient, in brightness: a thousandth of what an eye or 8 bits can tell.
 constexpr double kAgrees = 4e-6;
 constexpr int kMostIterations = 1000;
-// Each fixes those texels at 0 that would be below.
-constexpr int kRounds = 4;
+// Each fixes those texels at 0 that would be below, and lets go of those that would rise.
+constexpr int kMostRounds = 30;
 
 double largestOf(std::span<const dvec3> list) {
   double largest = 0.;
@@ -58,15 +58,15 @@ class Solver {
 
   std::uint64_t solve() {
     std::uint64_t iterations = 0;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kMostRounds; ++round) {
       iterations += descend();
-      if (!fixNegative()) break;
+      if (!exchange()) break;
     }
     return iterations;
   }
 
  private:
-  // to = (A^T A + stiffness) of, where free.
+  // to = (A^T A + stiffness) of.
   void apply(std::span<const dvec3> of, std::span<dvec3> to) const {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] = double{stiffness_[i]} * of[i];
     for (const SeamSample& s : samples_) {
@@ -77,13 +77,12 @@ class Solver {
       for (std::size_t k = 0; k < 8; ++k)
         to[s.texels[k] - first_] += double{s.weights[k]} * difference;
     }
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] *= free_[i];
   }
 
   std::uint64_t descend() {
     apply(values_, result_);
     for (std::size_t i = 0; i < values_.size(); ++i) {
-      residual_[i] = free_[i] * double{stiffness_[i]} * start_[i] - result_[i];
+      residual_[i] = free_[i] * (double{stiffness_[i]} * start_[i] - result_[i]);
       way_[i] = residual_[i] * inverse_[i];
     }
     dvec3 along = product(residual_, way_);
@@ -93,7 +92,7 @@ class Solver {
       const dvec3 step = quotient(along, product(way_, result_));
       for (std::size_t i = 0; i < values_.size(); ++i) {
         values_[i] += step * way_[i];
-        residual_[i] -= step * result_[i];
+        residual_[i] -= step * free_[i] * result_[i];
         result_[i] = residual_[i] * inverse_[i];
       }
       const dvec3 next = product(residual_, result_);
@@ -104,14 +103,21 @@ class Solver {
     return n;
   }
 
-  bool fixNegative() {
+  // Changes what is fixed to where the values push (block principal pivoting: Judice and Pires,
+  // 1994). False if nothing does; then no value is negative.
+  bool exchange() {
+    apply(values_, result_);
     bool any = false;
-    for (std::size_t i = 0; i < values_.size(); ++i)
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      const dvec3 push = double{stiffness_[i]} * start_[i] - result_[i];
       for (int c = 0; c < 3; ++c)
-        if (values_[i][c] < 0.) {
+        if (free_[i][c] == 0.) {
+          if (push[c] > kAgrees) free_[i][c] = 1., any = true;
+        } else if (values_[i][c] < 0.) {
           any = any || values_[i][c] < -kAgrees;
           values_[i][c] = free_[i][c] = 0.;
         }
+    }
     return any;
   }
 
