@@ -95,23 +95,33 @@ SeamSteps stepsOf(const SeamSystem& system, std::span<const dvec3> values) {
   return found;
 }
 
+std::uint64_t solveChannel(const SeamSystem& system, const SeamPart& part, int c,
+                           std::span<dvec3> values) {
+  std::vector<double> channel;
+  channel.reserve(values.size());
+  for (const dvec3& value : values) channel.push_back(value[c]);
+  const std::uint64_t iterations = solve(system, part, channel);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i][c] = channel[i];
+  return iterations;
+}
+
 // Returns the most iterations of a part.
 std::uint64_t solveMaps(const SeamSystem& system, BakedLight& baked, const Light& light) {
-  std::vector<std::uint64_t> iterations(system.parts.size());
-  constexpr std::size_t kGrain = 16;
-  parallelFor(system.parts.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    std::vector<dvec3> values;
+  std::vector<dvec3> values;
+  values.reserve(system.places.size());
+  for (const TexelPlace& place : system.places)
+    values.push_back(light.brightness(pixel(baked, place)));
+  std::vector<std::uint64_t> iterations(3 * system.parts.size());
+  constexpr std::size_t kGrain = 3;
+  parallelFor(iterations.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const SeamPart& part = system.parts[i];
-      const auto places = std::span(system.places).subspan(part.firstTexel, part.texels);
-      values.clear();
-      for (const TexelPlace& place : places)
-        values.push_back(light.brightness(pixel(baked, place)));
-      iterations[i] = solve(system, part, values);
-      for (std::size_t k = 0; k < places.size(); ++k)
-        std::ranges::copy(light.halves(values[k]), pixel(baked, places[k]));
+      const SeamPart& part = system.parts[i % system.parts.size()];
+      iterations[i] = solveChannel(system, part, static_cast<int>(i / system.parts.size()),
+                                   std::span(values).subspan(part.firstTexel, part.texels));
     }
   });
+  for (std::size_t i = 0; i < values.size(); ++i)
+    std::ranges::copy(light.halves(values[i]), pixel(baked, system.places[i]));
   return iterations.empty() ? 0 : std::ranges::max(iterations);
 }
 
@@ -136,7 +146,7 @@ void solveGroup(const SeamSystem& system, std::vector<LitTexel>& lit, const Ligh
     values.assign(part.texels, dvec3(0.));
     for (const Value& v : its)
       values[v.unknown - part.firstTexel] = light.brightness(v.texel->rgb.data());
-    solve(system, part, values);
+    for (int c = 0; c < 3; ++c) solveChannel(system, part, c, values);
     for (const Value& v : its) {
       dvec3& value = values[v.unknown - part.firstTexel];
       v.texel->rgb = light.halves(value);

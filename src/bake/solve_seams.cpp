@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/check.hpp"
@@ -9,131 +10,151 @@
 namespace lucerna::bake {
 namespace {
 
-using glm::dvec3;
-
-// Of the gradient, in brightness: a thousandth of what an eye or 8 bits can tell.
+// Of the gradient, in brightness: a thousandth of what 8 bits can tell.
 constexpr double kAgrees = 4e-6;
-constexpr int kMostIterations = 1000;
-// Each fixes those texels at 0 that would be below, and lets go of those that would rise.
-constexpr int kMostRounds = 30;
+constexpr std::uint64_t kMostIterations = 2000;
+// Scaled by its diagonal, the matrix lengthens no vector to more than 8 times, as a sample has 8
+// texels: (sum of 8 numbers)^2 <= 8 * the sum of their squares. Steps along the gradient by up to
+// 2 / 8 lead down.
+constexpr double kStep = 0.24;
 
-double largestOf(std::span<const dvec3> list) {
-  double largest = 0.;
-  for (const dvec3& v : list)
-    largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-  return largest;
-}
-
-dvec3 product(std::span<const dvec3> a, std::span<const dvec3> b) {
-  dvec3 sum(0.);
+double product(std::span<const double> a, std::span<const double> b) {
+  double sum = 0.;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
-// Channels that have come to rest divide 0 by 0.
-dvec3 quotient(dvec3 a, dvec3 b) {
-  const auto of = [](double x, double y) { return y > 0. ? x / y : 0.; };
-  return {of(a.x, b.x), of(a.y, b.y), of(a.z, b.z)};
-}
-
+// In variables x = value * sqrt(diagonal).
 class Solver {
  public:
-  Solver(const SeamSystem& system, const SeamPart& part, std::span<dvec3> values)
+  Solver(const SeamSystem& system, const SeamPart& part, std::span<double> values)
       : samples_(std::span(system.samples).subspan(part.firstSample, part.samples)),
         stiffness_(std::span(system.stiffness).subspan(part.firstTexel, part.texels)),
         first_(part.firstTexel),
         values_(values),
-        start_(values.begin(), values.end()),
-        free_(values.size(), dvec3(1.)),
-        inverse_(values.size()),
-        residual_(values.size()),
-        way_(values.size()),
-        result_(values.size()) {
-    std::vector<double> diagonal(stiffness_.begin(), stiffness_.end());
+        scale_(stiffness_.begin(), stiffness_.end()) {
     for (const SeamSample& s : samples_)
       for (std::size_t k = 0; k < 8; ++k)
-        diagonal[s.texels[k] - first_] += double{s.share} * s.weights[k] * s.weights[k];
-    for (std::size_t i = 0; i < diagonal.size(); ++i) inverse_[i] = 1. / diagonal[i];
+        scale_[s.texels[k] - first_] += double{s.share} * s.weights[k] * s.weights[k];
+    for (double& d : scale_) d = 1. / std::sqrt(d);
+    for (auto* list : {&x_, &gradient_, &constant_, &way_, &image_, &scratch_})
+      list->resize(values.size());
   }
 
   std::uint64_t solve() {
-    std::uint64_t iterations = 0;
-    for (int round = 0; round < kMostRounds; ++round) {
-      iterations += descend();
-      if (!exchange()) break;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      x_[i] = values_[i] / scale_[i];
+      constant_[i] = scale_[i] * stiffness_[i] * values_[i];
     }
-    return iterations;
-  }
-
- private:
-  // to = (A^T A + stiffness) of.
-  void apply(std::span<const dvec3> of, std::span<dvec3> to) const {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] = double{stiffness_[i]} * of[i];
-    for (const SeamSample& s : samples_) {
-      dvec3 difference(0.);
-      for (std::size_t k = 0; k < 8; ++k)
-        difference += double{s.weights[k]} * of[s.texels[k] - first_];
-      difference *= double{s.share};
-      for (std::size_t k = 0; k < 8; ++k)
-        to[s.texels[k] - first_] += double{s.weights[k]} * difference;
-    }
-  }
-
-  std::uint64_t descend() {
-    apply(values_, result_);
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      residual_[i] = free_[i] * (double{stiffness_[i]} * start_[i] - result_[i]);
-      way_[i] = residual_[i] * inverse_[i];
-    }
-    dvec3 along = product(residual_, way_);
+    findGradient();
+    way_ = free();
     std::uint64_t n = 0;
-    for (; n < kMostIterations && largestOf(residual_) > kAgrees; ++n) {
-      apply(way_, result_);
-      const dvec3 step = quotient(along, product(way_, result_));
-      for (std::size_t i = 0; i < values_.size(); ++i) {
-        values_[i] += step * way_[i];
-        residual_[i] -= step * free_[i] * result_[i];
-        result_[i] = residual_[i] * inverse_[i];
-      }
-      const dvec3 next = product(residual_, result_);
-      const dvec3 turn = quotient(next, along);
-      for (std::size_t i = 0; i < values_.size(); ++i) way_[i] = result_[i] + turn * way_[i];
-      along = next;
-    }
+    for (; n < kMostIterations && farthest() > kAgrees; ++n)
+      if (proportional())
+        descend();
+      else
+        letGo();
+    if (n > 0)
+      for (std::size_t i = 0; i < x_.size(); ++i) values_[i] = x_[i] * scale_[i];
     return n;
   }
 
-  // Changes what is fixed to where the values push (block principal pivoting: Judice and Pires,
-  // 1994). False if nothing does; then no value is negative.
-  bool exchange() {
-    apply(values_, result_);
-    bool any = false;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
-      const dvec3 push = double{stiffness_[i]} * start_[i] - result_[i];
-      for (int c = 0; c < 3; ++c)
-        if (free_[i][c] == 0.) {
-          if (push[c] > kAgrees) free_[i][c] = 1., any = true;
-        } else if (values_[i][c] < 0.) {
-          any = any || values_[i][c] < -kAgrees;
-          values_[i][c] = free_[i][c] = 0.;
-        }
+ private:
+  // image_ = matrix * of.
+  void apply(std::span<const double> of) {
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      scratch_[i] = scale_[i] * of[i];
+      image_[i] = stiffness_[i] * scratch_[i];
     }
-    return any;
+    for (const SeamSample& s : samples_) {
+      double difference = 0.;
+      for (std::size_t k = 0; k < 8; ++k)
+        difference += s.weights[k] * scratch_[s.texels[k] - first_];
+      difference *= s.share;
+      for (std::size_t k = 0; k < 8; ++k) image_[s.texels[k] - first_] += s.weights[k] * difference;
+    }
+    for (std::size_t i = 0; i < of.size(); ++i) image_[i] *= scale_[i];
+  }
+
+  void findGradient() {
+    apply(x_);
+    for (std::size_t i = 0; i < x_.size(); ++i) gradient_[i] = image_[i] - constant_[i];
+  }
+
+  // The gradient where values are above 0, and where they are 0 and would rise.
+  double freeAt(std::size_t i) const { return x_[i] > 0. ? gradient_[i] : 0.; }
+  double heldAt(std::size_t i) const { return x_[i] > 0. ? 0. : std::min(gradient_[i], 0.); }
+  std::vector<double> free() const {
+    std::vector<double> list(x_.size());
+    for (std::size_t i = 0; i < list.size(); ++i) list[i] = freeAt(i);
+    return list;
+  }
+
+  double farthest() const {
+    double largest = 0.;
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      largest = std::max(largest, std::abs(freeAt(i) + heldAt(i)));
+    return largest;
+  }
+
+  // Whether more is to be won by values above 0 than by those at 0.
+  bool proportional() const {
+    double held = 0., reduced = 0.;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      held += heldAt(i) * heldAt(i);
+      reduced += std::min(x_[i] / kStep, freeAt(i)) * freeAt(i);
+    }
+    return held <= reduced;
+  }
+
+  void move(double by, std::span<const double> way) {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
+      x_[i] -= by * way[i];
+      gradient_[i] -= by * image_[i];
+    }
+  }
+
+  // One step of conjugate gradients, or as far as a value reaches 0 and then one along the
+  // gradient.
+  void descend() {
+    apply(way_);
+    const double bent = product(way_, image_), step = product(gradient_, way_) / bent;
+    double most = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < x_.size(); ++i)
+      if (way_[i] > 0.) most = std::min(most, x_[i] / way_[i]);
+    move(std::min(step, most), way_);
+    if (step <= most) {
+      double turn = 0.;
+      for (std::size_t i = 0; i < x_.size(); ++i) turn += freeAt(i) * image_[i];
+      turn /= bent;
+      for (std::size_t i = 0; i < x_.size(); ++i) way_[i] = freeAt(i) - turn * way_[i];
+      return;
+    }
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = std::max(x_[i] - kStep * freeAt(i), 0.);
+    findGradient();
+    way_ = free();
+  }
+
+  // One step of the values at 0 that would rise.
+  void letGo() {
+    std::vector<double> way(x_.size());
+    for (std::size_t i = 0; i < x_.size(); ++i) way[i] = heldAt(i);
+    apply(way);
+    move(product(gradient_, way) / product(way, image_), way);
+    way_ = free();
   }
 
   std::span<const SeamSample> samples_;
   std::span<const float> stiffness_;
   std::uint32_t first_;
-  std::span<dvec3> values_;
-  std::vector<dvec3> start_;
-  std::vector<dvec3> free_;  // 1, or 0 where a value stays 0
-  std::vector<double> inverse_;
-  std::vector<dvec3> residual_, way_, result_;
+  std::span<double> values_;
+  std::vector<double> scale_;
+  std::vector<double> x_, gradient_, constant_, way_, image_, scratch_;
 };
 
 }  // namespace
 
-std::uint64_t solve(const SeamSystem& system, const SeamPart& part, std::span<dvec3> values) {
+std::uint64_t solve(const SeamSystem& system, const SeamPart& part, std::span<double> values) {
   CHECK(values.size() == part.texels);
   return Solver(system, part, values).solve();
 }
