@@ -11,7 +11,7 @@ namespace lucerna::bake {
 namespace {
 
 // Against the samples of a texel of seam, which count 1 together.
-constexpr float kMeasured = 4e-3f, kUnmeasured = 1e-3f;
+constexpr float kMeasured = 2e-3f, kUnmeasured = 5e-4f;
 
 struct Tap {
   TexelPlace place;

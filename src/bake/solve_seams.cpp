@@ -10,9 +10,9 @@
 namespace lucerna::bake {
 namespace {
 
-// Of the gradient, in brightness: a thousandth of what 8 bits can tell.
-constexpr double kAgrees = 4e-6;
-constexpr std::uint64_t kMostIterations = 2000;
+// Of the gradient, in brightness: 1/400 of what 8 bits can tell.
+constexpr double kAgrees = 1e-5;
+constexpr std::uint64_t kMostIterations = 400;  // what is left then is far below a step that shows
 // Scaled by its diagonal, the matrix lengthens no vector to more than 8 times, as a sample has 8
 // texels: (sum of 8 numbers)^2 <= 8 * the sum of their squares. Steps along the gradient by up to
 // 2 / 8 lead down.
