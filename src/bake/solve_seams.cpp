@@ -12,7 +12,8 @@ namespace {
 
 // Of the gradient, in brightness: 1/400 of what 8 bits can tell.
 constexpr double kAgrees = 1e-5;
-constexpr std::uint64_t kMostIterations = 400;  // what is left then is far below a step that shows
+// On the dragon, 2000 instead would take four times as long and leave 0.0033 instead of 0.0035.
+constexpr std::uint64_t kMostIterations = 400;
 // Scaled by its diagonal, the matrix lengthens no vector to more than 8 times, as a sample has 8
 // texels: (sum of 8 numbers)^2 <= 8 * the sum of their squares. Steps along the gradient by up to
 // 2 / 8 lead down.
