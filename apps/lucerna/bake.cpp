@@ -72,6 +72,22 @@ Json describe(const bake::Plan& plan) {
           {"groups", plan.groups.size() - 1}};
 }
 
+Json describe(const bake::SeamSteps& steps) {
+  return {
+      {"median", steps.median}, {"percentile_99", steps.percentile99}, {"largest", steps.largest}};
+}
+
+Json describe(const bake::SeamReport& seams) {
+  return {{"edges", seams.seams},
+          {"texels", seams.texels},
+          {"samples", seams.samples},
+          {"parts", seams.parts},
+          {"most_iterations", seams.mostIterations},
+          {"before", describe(seams.before)},
+          {"after", describe(seams.after)},
+          {"seconds", seams.seconds}};
+}
+
 Json describe(const bake::BakeReport& report) {
   const bake::LightCounters& c = report.counters;
   return {{"units", report.units},
@@ -79,6 +95,7 @@ Json describe(const bake::BakeReport& report) {
           {"texels", report.texels},
           {"pairs", c.pairs},
           {"rays", c.rays},
+          {"seams", describe(report.seams)},
           {"seconds",
            {{"prepare", report.seconds.prepare},
             {"light", report.seconds.light},

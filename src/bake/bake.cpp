@@ -226,6 +226,7 @@ Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
   LUCERNA_TRY(merged, readLogs(plan, folder));
   LUCERNA_TRY_VOID(checkComplete(merged, folder));
   dilate(merged.baked);
+  report.seams = closeSeams(plan, merged.baked);
   LUCERNA_TRY_VOID(writeLightmap(plan, merged.baked, folder, report.texels));
   removeWork(folder);
   report.seconds.finish += secondsSince(start);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "bake/plan.hpp"
+#include "bake/seams.hpp"
 #include "bake/shards.hpp"
 #include "bake/unit_light.hpp"
 
@@ -23,6 +24,7 @@ struct BakeReport {
   double samplingSeconds = 0.;               // of all threads
   std::uint64_t units = 0, unitsBefore = 0;  // of this shard; those that a log had already
   std::uint64_t texels = 0;                  // that lie on the scene
+  SeamReport seams;
   std::vector<std::string> warnings;
 };
 
