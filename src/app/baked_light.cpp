@@ -4,6 +4,7 @@
 #include <set>
 
 #include "core/text.hpp"
+#include "lightmap/geometry_hash.hpp"
 #include "lightmap/place.hpp"
 #include "lightmap/switching.hpp"
 
@@ -38,7 +39,12 @@ Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene)
       return error(ErrorKind::Input,
                    "the lightmap knows light {}, '{}', and '{}' has {} lights; bake it again",
                    light.light, light.name, scene.name, scene.lights.size());
-  // The baker's hash of the scene is compared with manifest.sceneHash here.
+  const std::string& wanted = lightmap.manifest.geometryHash;
+  if (!wanted.empty() && wanted != lightmap::hashText16(lightmap::geometryHash(scene)))
+    return error(ErrorKind::Input,
+                 "'{}': its objects have other shapes than when the lightmap was baked; bake it "
+                 "again",
+                 scene.name);
   return {};
 }
 

@@ -13,6 +13,7 @@
 #include "core/progress.hpp"
 #include "image/image_file.hpp"
 #include "image/ktx2.hpp"
+#include "lightmap/geometry_hash.hpp"
 #include "lightmap/manifest.hpp"
 
 namespace lucerna::bake {
@@ -166,6 +167,7 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   const scene::Scene& scene = *plan.world.scene;
   manifest.scene = scene.name;
   manifest.sceneHash = lightmap::hashText16(plan.hash);
+  manifest.geometryHash = lightmap::hashText16(lightmap::geometryHash(scene));
   manifest.settings = settingsText(plan.settings);
   manifest.processor = rayInstructionSet();
   manifest.side = plan.settings.pack.side;

@@ -181,6 +181,7 @@ std::string toJson(const Manifest& m) {
   Json document{{"lucerna", kFormat},
                 {"scene", {{"name", m.scene}, {"hash", m.sceneHash}}},
                 {"settings", m.settings.empty() ? Json::object() : Json::parse(m.settings)}};
+  addText(document["scene"], "geometry", m.geometryHash);
   addText(document, "processor", m.processor);
   document["side"] = m.side;
   document["density"] = m.density;
@@ -203,9 +204,10 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
     return document.status().error();
   root.format(kFormat);
   root.require({"lucerna", "scene", "side", "layout", "maps"});
-  if (root.has("scene") && root.at("scene").object({"name", "hash"})) {
+  if (root.has("scene") && root.at("scene").object({"name", "hash", "geometry"})) {
     root.at("scene").read("name", m.scene);
     root.at("scene").read("hash", m.sceneHash);
+    root.at("scene").read("geometry", m.geometryHash);
   }
   root.read("processor", m.processor);
   root.readInteger("side", m.side, 1, 32768);

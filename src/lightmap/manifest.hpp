@@ -42,12 +42,13 @@ struct LightEntry {
 };
 
 struct Manifest {
-  std::string scene;      // its name
-  std::string sceneHash;  // of everything in it that the light depends on
-  std::string settings;   // of the bake, as one JSON object's text
-  std::string processor;  // instruction set that the rays were followed with
-  int side = 0;           // texels of a map
-  float density = 0.f;    // texels a metre
+  std::string scene;         // its name
+  std::string sceneHash;     // of everything in it that the light depends on, and the settings
+  std::string geometryHash;  // of its objects' shapes (lightmap/geometry_hash.hpp); "": not known
+  std::string settings;      // of the bake, as one JSON object's text
+  std::string processor;     // instruction set that the rays were followed with
+  int side = 0;              // texels of a map
+  float density = 0.f;       // texels a metre
   FileEntry layout;
   std::vector<MapEntry> maps;
   std::vector<PatchEntry> patches;
