@@ -170,8 +170,12 @@ TEST_F(BakedFolderTest, AmbientSharesOfBakedLightsStay) {
 
 TEST_F(BakedFolderTest, AGroupThatIsOffGivesNoAmbientLightEither) {
   manifest_.lights[0].group = "lamps";
-  manifest_.patches.push_back(
-      {.group = "lamps", .patch = {"patch-000.bin", lightmap::hashText16(0)}, .form = "tiles"});
+  const Bytes patch = toBytes(
+      lightmap::Patch{.group = "lamps", .side = kSide, .maps = static_cast<int>(kMaps.size())});
+  ASSERT_TRUE(writeFile(folder_ / "patch-000.bin", patch));
+  manifest_.patches.push_back({.group = "lamps",
+                               .patch = {"patch-000.bin", lightmap::hashText16(hashBytes(patch))},
+                               .form = "tiles"});
   writeManifest();
   settings_.lightsOff = {"lamps"};
   scene_.lights[0].ambientIntensity = 0.25f;

@@ -52,6 +52,7 @@ TEST(Layout, EveryMissingByteIsFoundAndNoFlippedOneIsFollowed) {
 Manifest smallManifest() {
   return {.scene = "builtin:cornell",
           .sceneHash = hashText16(1),
+          .geometryHash = hashText16(8),
           .settings = R"({"preset": "standard"})",
           .processor = "avx2",
           .side = 8,
@@ -75,6 +76,7 @@ TEST(Manifest, TextAndBack) {
   const Result<Manifest> back = manifestFrom(toJson(smallManifest()), "manifest.json");
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->scene, "builtin:cornell");
+  EXPECT_EQ(back->geometryHash, hashText16(8));
   EXPECT_EQ(back->side, 8);
   EXPECT_EQ(back->density, 2.5f);
   ASSERT_EQ(back->maps.size(), 1u);
