@@ -246,14 +246,15 @@ bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
   if (samples.planar) {
     // The corner of the box that is highest above the tile's plane.
     const vec3 highest = glm::mix(node.boxW.min, node.boxW.max, glm::step(vec3(0.f), samples.axis));
-    // A cell's surface reaches around its middle.
-    if (glm::dot(samples.axis, highest - samples.corners[0]) + node.size <= 0.f) return false;
+    // What lies in the tile's own plane is as clear of it as the samples.
+    if (glm::dot(samples.axis, highest - samples.corners[0]) <= liftAt(samples.corners[0]))
+      return false;
   }
   if (node.cosine <= 0.f) return true;
   // Whether all directions from the node to the tile are behind all of its normals: both as balls.
   const vec3 to = tile.boundsW.center() - node.boxW.center();
   const float distance = glm::length(to);
-  const float ball = 0.5f * (tile.boundsW.diagonal() + node.boxW.diagonal()) + node.size;
+  const float ball = 0.5f * (tile.boundsW.diagonal() + node.boxW.diagonal());
   if (distance <= ball) return true;
   const float sinSpread = std::sqrt(std::max(1.f - node.cosine * node.cosine, 0.f));
   const float sinBall = ball / distance;

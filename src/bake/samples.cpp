@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/clip_polygon.hpp"
 #include "bake/triangle.hpp"
 #include "core/check.hpp"
 
@@ -46,46 +47,6 @@ Range texelsBelow(const std::array<vec2, 3>& corners, const Block& block) {
   return {glm::clamp(ivec2(glm::floor(min)) - block.corner, ivec2(0), block.size),
           glm::clamp(ivec2(glm::floor(max)) + 1 - block.corner, ivec2(0), block.size)};
 }
-
-// A convex polygon that is cut by half-planes (Sutherland and Hodgman, "Reentrant Polygon
-// Clipping", 1974).
-class Polygon {
- public:
-  explicit Polygon(const std::array<vec2, 3>& corners) {
-    for (const vec2 corner : corners) points_[count_++] = corner;
-  }
-  // Keeps what has sign * (p[axis] - bound) >= 0.
-  void cut(int axis, double bound, double sign) {
-    std::array<dvec2, kMost> kept;
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const dvec2 p = points_[i], q = points_[(i + 1) % count_];
-      const double dp = sign * (p[axis] - bound), dq = sign * (q[axis] - bound);
-      if (dp >= 0.) kept[n++] = p;
-      if ((dp < 0. && dq > 0.) || (dp > 0. && dq < 0.)) kept[n++] = p + (q - p) * (dp / (dp - dq));
-    }
-    points_ = kept;
-    count_ = n;
-  }
-  // area: positive whatever the orientation; its centroid, where the area is not 0.
-  double area(dvec2& centroid) const {
-    double twice = 0.;
-    dvec2 moment(0.);
-    for (std::size_t i = 1; i + 1 < count_; ++i) {
-      const dvec2 a = points_[0], b = points_[i], c = points_[i + 1];
-      const double part = cross(b - a, c - a);
-      twice += part;
-      moment += part * (a + b + c) / 3.;
-    }
-    if (twice != 0.) centroid = moment / twice;
-    return std::abs(0.5 * twice);
-  }
-
- private:
-  static constexpr std::size_t kMost = 8;  // a triangle cut four times has seven corners at most
-  std::array<dvec2, kMost> points_;
-  std::size_t count_ = 0;
-};
 
 void clear(Samples& samples) {
   for (auto* list : {&samples.x, &samples.y, &samples.z, &samples.nx, &samples.ny, &samples.nz})
@@ -218,18 +179,14 @@ void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
       const auto texel = static_cast<std::size_t>(y * block.size.x + x);
       if (inside_[texel]) continue;
       const dvec2 corner(block.corner + ivec2(x, y));
-      Polygon polygon(corners);
-      for (int axis = 0; axis < 2; ++axis) {
-        polygon.cut(axis, corner[axis], 1.);
-        polygon.cut(axis, corner[axis] + 1., -1.);
-      }
-      dvec2 centroid(0.);
-      const double area = polygon.area(centroid);
+      ClipPolygon polygon(corners);
+      polygon.cutTo(corner, corner + 1.);
+      const PolygonMoments inside = polygon.moments();
       Found& found = found_[texel * perTexel()];
-      if (area > kLeastArea && area > found.area)
+      if (inside.area > kLeastArea && inside.area > found.area)
         found = {.triangle = triangle,
-                 .barycentric = vec2(barycentric.at(centroid)),
-                 .area = static_cast<float>(area)};
+                 .barycentric = vec2(barycentric.at(inside.centroid)),
+                 .area = static_cast<float>(inside.area)};
     }
 }
 
