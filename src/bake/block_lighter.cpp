@@ -1,9 +1,11 @@
 #include "bake/block_lighter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "bake/polygon_light.hpp"
 #include "core/check.hpp"
 #include "trace/light_sampling.hpp"
 #include "trace/low_discrepancy.hpp"
@@ -262,10 +264,41 @@ bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
   return glm::dot(to / distance, node.axis) > -(sinSpread + sinBall);
 }
 
+// weights_, as shade(): of a point of a surface.
+void BlockLighter::shadeEmission(const Samples& s, const Emission& e, float reach, Tile range) {
+  if (scene_.bake.area) {
+    shade(s, lightOf(e, scene_, reach), range);
+    return;
+  }
+  const std::size_t count = range.count;
+  weights_.resize(s.size());
+  float* weights = weights_.data() + range.first;
+  const float *x = s.x.data() + range.first, *y = s.y.data() + range.first,
+              *z = s.z.data() + range.first;
+  const float *nx = s.nx.data() + range.first, *ny = s.ny.data() + range.first,
+              *nz = s.nz.data() + range.first;
+  const vec3 from = e.positionW, axis = e.normalW;
+  const float inverse = 1.f / (reach * reach);  // 0 for an infinite reach
+  for (std::size_t i = 0; i < count; ++i) {
+    const float lx = from.x - x[i], ly = from.y - y[i], lz = from.z - z[i];
+    const float squared = lx * lx + ly * ly + lz * lz;
+    const float receiving = nx[i] * lx + ny[i] * ly + nz[i] * lz;
+    const float sending = -(axis.x * lx + axis.y * ly + axis.z * lz);
+    const float ratio = std::min(squared * inverse, 1.f);
+    const float window = 1.f - ratio * ratio;
+    const float d2 = std::max(squared, 1e-8f);
+    weights[i] = std::max(receiving, 0.f) * std::max(sending, 0.f) * window * window / (d2 * d2);
+  }
+}
+
+// corrected: the weights times corrections_.
 void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
-                               float reach) {
+                               float reach, bool corrected) {
+  shadeEmission(samples, emission, reach, tile);
+  if (corrected)
+    for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i)
+      weights_[i] *= corrections_[i];
   const PlacedLight point = lightOf(emission, scene_, reach);
-  shade(samples, point, tile);
   const std::size_t first = lit_.size();
   collect(samples, point, tile, {});
   values_.resize(lit_.size());
@@ -288,24 +321,55 @@ void BlockLighter::flush() {
   counters.tracingSeconds += secondsSince(start);
 }
 
-// A cell or a node that is small enough for its distance: one point. A cell that is not: a grid of
-// points.
+// A cell by a grid of points: they tell what share of it is seen. What all of it gives where
+// nothing is in the way is known.
+void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                               int split) {
+  const int count = split * split;
+  const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
+  Emission part = cell.emission;
+  part.intensity /= static_cast<float>(count);
+  const auto pointAt = [&](int i) {
+    const vec2 at = (vec2(i % split, i / split) + 0.5f) / static_cast<float>(split) - 0.5f;
+    return middle + u * at.x + v * at.y;
+  };
+  const float area = glm::length(glm::cross(u, v));
+  const bool corrected = !scene_.bake.area && area > 0.f;
+  if (corrected) {
+    corrections_.resize(samples.size());
+    std::fill_n(corrections_.begin() + tile.first, tile.count, 0.f);
+    for (int i = 0; i < count; ++i) {
+      part.positionW = pointAt(i);
+      shadeEmission(samples, part, std::numeric_limits<float>::infinity(), tile);
+      for (std::uint32_t k = tile.first; k < tile.first + tile.count; ++k)
+        corrections_[k] += weights_[k];
+    }
+    const std::array<vec3, 4> corners{middle - 0.5f * (u + v), middle + 0.5f * (u - v),
+                                      middle + 0.5f * (u + v), middle - 0.5f * (u - v)};
+    for (std::uint32_t k = tile.first; k < tile.first + tile.count; ++k) {
+      float& correction = corrections_[k];
+      if (correction <= 0.f) continue;
+      const vec3 to(samples.x[k], samples.y[k], samples.z[k]);
+      const vec3 normal(samples.nx[k], samples.ny[k], samples.nz[k]);
+      correction =
+          polygonIrradiance(corners, to, normal) * static_cast<float>(count) / (area * correction);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    part.positionW = pointAt(i);
+    addEmission(samples, tile, part, cell.reach, corrected);
+  }
+}
+
+// A node, or a cell that is small enough for its distance: one point.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                                float distance) {
-  constexpr int kMostSplit = 8;  // points along each side of a cell
+  constexpr float kMostSplit = 4.f;  // points along each side of a cell
   const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
-  const int split =
-      node.isCell()
-          ? static_cast<int>(std::clamp(std::ceil(wanted), 1.f, static_cast<float>(kMostSplit)))
-          : 1;
-  Emission part = node.emission;
-  part.intensity /= static_cast<float>(split * split);
-  for (int y = 0; y < split; ++y)
-    for (int x = 0; x < split; ++x) {
-      const vec2 at = (vec2(x, y) + 0.5f) / static_cast<float>(split) - 0.5f;
-      part.positionW = node.emission.positionW + node.alongU * at.x + node.alongV * at.y;
-      addEmission(samples, tile, part, node.reach);
-    }
+  if (node.isCell() && wanted > 1.f)
+    lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
+  else
+    addEmission(samples, tile, node.emission, node.reach, false);
 }
 
 void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {

@@ -68,7 +68,10 @@ class BlockLighter {
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
-  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach);
+  void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, int split);
+  void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
+  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,
+                   bool corrected);
   void flush();
 
   const ShadowTracer& tracer_;
@@ -77,7 +80,8 @@ class BlockLighter {
   LighterSettings settings_;
   const scene::Scene& scene_;
   // Of one point of a light:
-  std::vector<float> weights_;  // of its intensity that each sample gets, before shadows
+  std::vector<float> weights_;      // of its intensity that each sample gets, before shadows
+  std::vector<float> corrections_;  // of a cell's points: factors of weights_
   // Of the rays that are to be traced together:
   std::vector<std::uint32_t> lit_;  // samples that they lead to
   std::vector<vec3> values_;        // what these get if nothing is in the way; of emitters

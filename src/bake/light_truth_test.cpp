@@ -52,7 +52,6 @@ Errors errorsOf(const std::vector<LitTexel>& texels, const Truth& truth) {
   return e;
 }
 
-// The mean over a whole texel, where each has all its positions: by 8 x 8 points.
 constexpr float kRadiance = 2.f;
 
 struct Lamp {
