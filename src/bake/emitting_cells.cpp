@@ -13,8 +13,8 @@ namespace {
 
 using glm::dvec2;
 
-constexpr int kTile = 8;       // texels along a side that are asked at once whether they shine
-constexpr int kMostCuts = 16;  // along a texel
+constexpr int kTile = 8;      // texels along a side that are asked at once whether they shine
+constexpr int kMostCuts = 8;  // along a texel
 
 // A triangle of the chart, as a map from texels.
 struct Facet {
@@ -77,12 +77,12 @@ class Source {
     facet.area = glm::length(glm::cross(facet.stepX, facet.stepY));
     return facet;
   }
-  // How finely a texel is to be cut so that no pixel is left out.
+  // How finely a texel is to be cut so that no pixel is left out: filtered, it is two wide.
   int cuts(const Facet& facet) const {
     if (!texture_) return 1;
     const vec2 across = (glm::abs(facet.uvX) + glm::abs(facet.uvY)) * pixels_;
-    const float pixels = std::max(across.x, across.y);
-    return pixels < kMostCuts ? std::max(static_cast<int>(std::ceil(pixels)), 2) : kMostCuts;
+    const float wanted = 0.6f * std::max(across.x, across.y);
+    return wanted < kMostCuts ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kMostCuts;
   }
   // Whether anything may shine within the polygon.
   bool shines(const Facet& facet, const ClipPolygon& polygon) const {
@@ -129,6 +129,7 @@ struct Sum {
   void add(const Facet& facet, const PolygonMoments& part, dvec2 corner, vec3 radiance) {
     const vec3 light = radiance * (facet.area * static_cast<float>(part.area));
     const double w = light.x + light.y + light.z;
+    if (w == 0.) return;
     intensity += light;
     weight += w;
     positionW += w * glm::dvec3(facet.at(part.centroid));
@@ -154,6 +155,32 @@ struct Sum {
   }
 };
 
+// What a triangle has of a square.
+PolygonMoments partOf(const Facet& facet, dvec2 from, double side, bool inside) {
+  if (inside)
+    return {
+        .area = side * side, .centroid = from + 0.5 * side, .variance = dvec2(side * side / 12.)};
+  ClipPolygon part(facet.corners);
+  part.cutTo(from, from + side);
+  return part.moments();
+}
+
+void addTexel(Sum& sum, const Source& source, const Facet& facet, ivec2 texel) {
+  const dvec2 corner(texel);
+  ClipPolygon whole(facet.corners);
+  whole.cutTo(corner, corner + 1.);
+  const PolygonMoments all = whole.moments();
+  if (all.area <= 0. || !source.shines(facet, whole)) return;
+  const int cuts = source.cuts(facet);
+  const double side = 1. / cuts;
+  const bool inside = all.area > 1. - 1e-9;
+  for (int i = 0; i < cuts * cuts; ++i) {
+    const PolygonMoments part =
+        cuts == 1 ? all : partOf(facet, corner + side * dvec2(i % cuts, i / cuts), side, inside);
+    if (part.area > 0.) sum.add(facet, part, corner, source.radiance(facet, part.centroid));
+  }
+}
+
 // Adds what a triangle has of a tile's texels.
 void addFacet(std::array<Sum, kTile * kTile>& sums, const Source& source, const Facet& facet,
               ivec2 tile, ivec2 end) {
@@ -165,22 +192,12 @@ void addFacet(std::array<Sum, kTile * kTile>& sums, const Source& source, const 
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
-  const int cuts = source.cuts(facet);
   const ivec2 first = glm::max(ivec2(glm::floor(low)), tile);
   const ivec2 last = glm::min(ivec2(glm::floor(high)), end - 1);
   for (int y = first.y; y <= last.y; ++y)
-    for (int x = first.x; x <= last.x; ++x) {
-      const dvec2 corner(x, y);
-      Sum& sum = sums[static_cast<std::size_t>((y - tile.y) * kTile + x - tile.x)];
-      for (int i = 0; i < cuts * cuts; ++i) {
-        const dvec2 from = corner + dvec2(i % cuts, i / cuts) / static_cast<double>(cuts);
-        ClipPolygon part(facet.corners);
-        part.cutTo(from, from + 1. / static_cast<double>(cuts));
-        const PolygonMoments moments = part.moments();
-        if (moments.area > 0.)
-          sum.add(facet, moments, corner, source.radiance(facet, moments.centroid));
-      }
-    }
+    for (int x = first.x; x <= last.x; ++x)
+      addTexel(sums[static_cast<std::size_t>((y - tile.y) * kTile + x - tile.x)], source, facet,
+               {x, y});
 }
 
 }  // namespace
