@@ -29,12 +29,19 @@ struct LightCounters {
 };
 
 struct LighterSettings {
-  // Points on each light that has a size, where the first four do not agree on what they see; a
-  // power of two from 4 on, or 1: its middle.
+  // Points on each light that has a size, where eight on its rim do not agree on what they see; 1:
+  // its middle alone.
   int lightSamples = 16;
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   float sceneDiagonal = 1.f;  // m
+};
+
+// A point of a light.
+struct LightPoint {
+  scene::PlacedLight light;  // as if it had no size and stood there
+  vec3 centreW{0.f};         // of the light: distances count from there
+  float ahead = 0.f;         // m from the point to the light's surface, towards what is lit
 };
 
 // One thread's.
@@ -57,11 +64,14 @@ class BlockLighter {
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
-  void addPoint(const Samples& samples, const scene::PlacedLight& point, bool clear,
-                std::span<const std::uint32_t> among);
-  void shade(const Samples& samples, const scene::PlacedLight& point, Tile range);
-  void collect(const Samples& samples, const scene::PlacedLight& point, Tile range,
+  void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
+                    bool clear);
+  void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
+  void shade(const Samples& samples, const LightPoint& point, Tile range);
+  void collect(const Samples& samples, const LightPoint& point, Tile range,
                std::span<const std::uint32_t> among);
+  void tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
+                  std::span<const std::uint32_t> among);
 
   // Emitting surfaces, tile by tile.
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
@@ -88,10 +98,10 @@ class BlockLighter {
   ShadowRays rays_;
   std::vector<vec3> shares_;          // of the light that they let through
   std::vector<std::uint32_t> stack_;  // nodes of emitters
-  // Of a light, one a sample:
-  std::vector<vec3> light_;
-  std::vector<float> seen_;          // of the points asked
-  std::vector<std::uint8_t> asked_;  // points
+  // Of a light with a size, one a sample:
+  std::vector<float> full_;   // weights where nothing is in the way
+  std::vector<vec3> seen_;    // weights times shares, of the points that are asked
+  std::vector<float> asked_;  // their weights
   std::vector<std::uint32_t> unsure_;
   // Of all lights, one a sample:
   std::vector<vec3> sums_;

@@ -144,6 +144,16 @@ ChartSampler::ChartSampler(const World& world, const Chart& chart, int side)
   }
 }
 
+// Places in a texel: one in each square of a grid, no two in a row or a column of one as fine as
+// there are places, so that edges of shadows along the chart's axes fall between them one by one
+// (Chiu, Shirley and Wang, "Multi-Jittered Sampling", Graphics Gems IV, 1994, without jitter).
+dvec2 ChartSampler::place(std::size_t index) const {
+  const double side = side_;
+  const dvec2 square(static_cast<double>(index % static_cast<std::size_t>(side_)),
+                     static_cast<double>(index / static_cast<std::size_t>(side_)));
+  return (square + dvec2(square.y + 0.5, side - square.x - 0.5) / side) / side;
+}
+
 // Of several triangles at a point the first counts.
 void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
   const auto& corners = chart_.corners[triangle];
@@ -156,10 +166,7 @@ void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
       for (std::size_t i = 0; i < perTexel(); ++i) {
         Found& found = found_[texel * perTexel() + i];
         if (found.triangle != Found::kNothing) continue;
-        const ivec2 step(static_cast<int>(i) % side_, static_cast<int>(i) / side_);
-        const dvec2 p =
-            dvec2(block.corner + ivec2(x, y)) + (dvec2(step) + 0.5) / static_cast<double>(side_);
-        const dvec2 weights = barycentric.at(p);
+        const dvec2 weights = barycentric.at(dvec2(block.corner + ivec2(x, y)) + place(i));
         if (!isInside(weights)) continue;
         found = {.triangle = triangle, .barycentric = vec2(weights)};
         inside_[texel] = true;

@@ -58,7 +58,7 @@ class ChartSampler {
   // side: samples along each side of a texel. The chart outlives it.
   ChartSampler(const World& world, const Chart& chart, int side);
 
-  // A texel's samples are those of a regular grid that lie in one of the chart's triangles. Where
+  // A texel's samples are those of an even pattern that lie in one of the chart's triangles. Where
   // none does and yet the chart touches it: the middle of what it covers of the texel.
   // The block may be a part of one that addBlocks() gives.
   void sample(const Block& block, Samples& samples);
@@ -84,6 +84,7 @@ class ChartSampler {
     vec3 flatW{0.f};                           // its own normal, unit
   };
   std::size_t perTexel() const { return static_cast<std::size_t>(side_) * side_; }
+  glm::dvec2 place(std::size_t index) const;
   void findInside(const Block& block, std::uint32_t triangle);
   void findBorder(const Block& block, std::uint32_t triangle);
   void emitTile(const Block& block, ivec2 corner, Samples& samples) const;
