@@ -21,7 +21,8 @@ void addTexels(std::vector<LitTexel>& list, const Plan& plan, const Block& block
                    .irradiance = light[at]};
     vec3 normal(0.f);
     for (; i < s.size() && s.texels[i] == at; ++i) {
-      texel.positionW += vec3(s.x[i], s.y[i], s.z[i]);
+      texel.placesW.emplace_back(s.x[i], s.y[i], s.z[i]);
+      texel.positionW += texel.placesW.back();
       normal += vec3(s.nx[i], s.ny[i], s.nz[i]);
     }
     texel.positionW /= static_cast<float>(i - first);

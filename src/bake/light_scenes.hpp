@@ -16,6 +16,7 @@ struct LitTexel {
   std::uint32_t chart = 0;                      // of the plan's
   ivec2 texel{0};                               // of the chart
   vec3 positionW{0.f}, normalW{0.f, 1.f, 0.f};  // means of its samples, the normal unit
+  std::vector<vec3> placesW{};                  // of its samples
   bool border = false;                          // the chart does not cover all of it
   vec3 irradiance{0.f};
 };

@@ -80,26 +80,27 @@ std::array<vec3, 4> rectangleAround(const Samples& s, vec3 along) {
 
 // along: where the chart's x leads in the world, if it is planar.
 void findBounds(Samples& s, vec3 along) {
-  vec3 sum(0.f);
+  glm::dvec3 sum(0.);  // in double precision: many normals of one plane must give that normal
   for (std::size_t i = 0; i < s.size(); ++i) {
     s.boundsW.grow({s.x[i], s.y[i], s.z[i]});
-    sum += vec3(s.nx[i], s.ny[i], s.nz[i]);
+    sum += glm::dvec3(s.nx[i], s.ny[i], s.nz[i]);
   }
-  const float length = glm::length(sum);
-  if (!(length > 0.f)) return;
-  s.axis = sum / length;
+  const double length = glm::length(sum);
+  if (!(length > 0.)) return;
+  const glm::dvec3 axis = sum / length;
+  s.axis = vec3(axis);
   s.cosine = 1.f;
-  float low = std::numeric_limits<float>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < s.size(); ++i) {
     s.cosine = std::min(s.cosine, glm::dot(s.axis, vec3(s.nx[i], s.ny[i], s.nz[i])));
-    const float height = glm::dot(s.axis, vec3(s.x[i], s.y[i], s.z[i]));
+    const double height = glm::dot(axis, glm::dvec3(s.x[i], s.y[i], s.z[i]));
     low = std::min(low, height);
     high = std::max(high, height);
   }
   const vec3 size = glm::max(glm::abs(s.boundsW.min), glm::abs(s.boundsW.max));
   const float rounding = std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-20f;
   const vec3 square = along - s.axis * glm::dot(s.axis, along);
-  s.planar = s.cosine > 1.f - 0x1p-20f && high - low <= rounding &&
+  s.planar = s.cosine > 1.f - 0x1p-20f && high - low <= double{rounding} &&
              glm::dot(square, square) > 0.5f * glm::dot(along, along);
   if (s.planar) s.corners = rectangleAround(s, along);
 }
@@ -204,8 +205,7 @@ void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& sample
   const auto at = [&](const std::array<vec3, 3>& v) {
     return v[0] * first + v[1] * second + v[2] * third;
   };
-  vec3 p = at(surface.positionsW);
-  p += surface.flatW * liftAt(p);
+  const vec3 p = at(surface.positionsW);
   vec3 normal = at(surface.normalsW);
   const float length = glm::length(normal);
   normal = length > 1e-3f ? normal / length : surface.flatW;
@@ -247,10 +247,25 @@ void ChartSampler::emitTile(const Block& block, ivec2 corner, Samples& samples) 
       for (int ty = y; ty < std::min(y + kPacketTile, end.y); ++ty)
         for (int tx = x; tx < std::min(x + kPacketTile, end.x); ++tx)
           emitTexel(block, {tx, ty}, samples);
-  for (std::size_t i = tile.first; i < samples.size(); ++i)
-    tile.boundsW.grow({samples.x[i], samples.y[i], samples.z[i]});
   tile.count = static_cast<std::uint32_t>(samples.size()) - tile.first;
   if (tile.count > 0) samples.tiles.push_back(tile);
+}
+
+// As much for the whole block, so that what is flat stays so.
+void ChartSampler::lift(Samples& samples) const {
+  Aabb box;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    box.grow({samples.x[i], samples.y[i], samples.z[i]});
+  const float by = samples.size() > 0 ? std::max(liftAt(box.min), liftAt(box.max)) : 0.f;
+  for (Samples::Tile& tile : samples.tiles)
+    for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+      const vec3 p = vec3(samples.x[i], samples.y[i], samples.z[i]) +
+                     by * surfaces_[samples.triangles[i]].flatW;
+      samples.x[i] = p.x;
+      samples.y[i] = p.y;
+      samples.z[i] = p.z;
+      tile.boundsW.grow(p);
+    }
 }
 
 void ChartSampler::sample(const Block& block, Samples& samples) {
@@ -264,6 +279,7 @@ void ChartSampler::sample(const Block& block, Samples& samples) {
   for (const std::uint32_t triangle : triangles) findBorder(block, triangle);
   for (int y = 0; y < block.size.y; y += kTile)
     for (int x = 0; x < block.size.x; x += kTile) emitTile(block, {x, y}, samples);
+  lift(samples);
   findBounds(samples, samples.triangles.empty() ? vec3(0.f) : stepsOn(samples.triangles[0]).x);
 }
 

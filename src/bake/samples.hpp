@@ -90,6 +90,7 @@ class ChartSampler {
   void emitTile(const Block& block, ivec2 corner, Samples& samples) const;
   void emitTexel(const Block& block, ivec2 texel, Samples& samples) const;
   void emit(const Found& found, std::uint16_t texel, Samples& samples) const;
+  void lift(Samples& samples) const;
 
   const Chart& chart_;
   int side_;
