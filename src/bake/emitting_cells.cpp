@@ -13,8 +13,8 @@ namespace {
 
 using glm::dvec2;
 
-constexpr int kTile = 8;      // texels along a side that are asked at once whether they shine
-constexpr int kMostCuts = 8;  // along a texel
+constexpr int kTile = 8;       // texels along a side that are asked at once whether they shine
+constexpr int kMostCuts = 16;  // along a texel
 
 // A triangle of the chart, as a map from texels.
 struct Facet {
@@ -77,11 +77,11 @@ class Source {
     facet.area = glm::length(glm::cross(facet.stepX, facet.stepY));
     return facet;
   }
-  // How finely a texel is to be cut so that no pixel is left out: filtered, it is two wide.
+  // How finely a texel is to be cut so that no pixel is left out.
   int cuts(const Facet& facet) const {
     if (!texture_) return 1;
     const vec2 across = (glm::abs(facet.uvX) + glm::abs(facet.uvY)) * pixels_;
-    const float wanted = 0.6f * std::max(across.x, across.y);
+    const float wanted = std::max(across.x, across.y);
     return wanted < kMostCuts ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kMostCuts;
   }
   // Whether anything may shine within the polygon.
