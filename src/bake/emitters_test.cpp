@@ -81,8 +81,12 @@ TEST(Emitters, FollowTheTexturesTransformAndWrap) {
     slot.offset = {0.3f, -0.2f};
     slot.scale = {1.7f, 0.8f};
     slot.rotation = 0.4f;
+    // A picture that is halved, for texels as coarse, spills over the surface's edge: its last
+    // column goes on there.
+    const float coarse = wrap == scene::Wrap::ClampToEdge ? 0.03f : 0.01f;
     for (const float density : {1.f, 2.5f, 7.f})
-      expectClose(facade.intensity(density), facade.truth(), 0.01f, density);
+      expectClose(facade.intensity(density), facade.truth(), density < 2.f ? coarse : 0.01f,
+                  density);
   }
 }
 

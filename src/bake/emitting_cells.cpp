@@ -77,12 +77,19 @@ class Source {
     facet.area = glm::length(glm::cross(facet.stepX, facet.stepY));
     return facet;
   }
-  // How finely a texel is to be cut so that no pixel is left out.
-  int cuts(const Facet& facet) const {
-    if (!texture_) return 1;
+  // How finely a texel is to be cut so that no pixel is left out, and of which level.
+  struct Steps {
+    int cuts = 1, level = 0;
+  };
+  Steps steps(const Facet& facet) const {
+    if (!texture_) return {};
     const vec2 across = (glm::abs(facet.uvX) + glm::abs(facet.uvY)) * pixels_;
-    const float wanted = std::max(across.x, across.y);
-    return wanted < kMostCuts ? std::max(static_cast<int>(std::ceil(wanted)), 2) : kMostCuts;
+    float pixels = std::max(across.x, across.y);
+    Steps steps;
+    for (; pixels > kMostCuts && steps.level + 1 < texture_->levels(); pixels *= 0.5f)
+      ++steps.level;
+    steps.cuts = pixels < kMostCuts ? std::max(static_cast<int>(std::ceil(pixels)), 2) : kMostCuts;
+    return steps;
   }
   // Whether anything may shine within the polygon.
   bool shines(const Facet& facet, const ClipPolygon& polygon) const {
@@ -95,8 +102,8 @@ class Source {
     }
     return texture_->shines(low, high);
   }
-  vec3 radiance(const Facet& facet, dvec2 p) const {
-    return texture_ ? material_.emissive * texture_->at(facet.uvAt(p)) : material_.emissive;
+  vec3 radiance(const Facet& facet, dvec2 p, int level) const {
+    return texture_ ? material_.emissive * texture_->at(facet.uvAt(p), level) : material_.emissive;
   }
 
  private:
@@ -171,13 +178,13 @@ void addTexel(Sum& sum, const Source& source, const Facet& facet, ivec2 texel) {
   whole.cutTo(corner, corner + 1.);
   const PolygonMoments all = whole.moments();
   if (all.area <= 0. || !source.shines(facet, whole)) return;
-  const int cuts = source.cuts(facet);
+  const auto [cuts, level] = source.steps(facet);
   const double side = 1. / cuts;
   const bool inside = all.area > 1. - 1e-9;
   for (int i = 0; i < cuts * cuts; ++i) {
     const PolygonMoments part =
         cuts == 1 ? all : partOf(facet, corner + side * dvec2(i % cuts, i / cuts), side, inside);
-    if (part.area > 0.) sum.add(facet, part, corner, source.radiance(facet, part.centroid));
+    if (part.area > 0.) sum.add(facet, part, corner, source.radiance(facet, part.centroid, level));
   }
 }
 

@@ -18,8 +18,8 @@ struct Cell {
   vec3 alongU{0.f}, alongV{0.f};  // sides, m in the world
 };
 
-// textures: of those in emissive slots, by their place in the scene. Areas are exact; a picture is
-// read as finely as its pixels lie, up to 16 times along a texel.
+// textures: of those in emissive slots, by their place in the scene. Areas are exact; of pictures
+// all pixels count.
 std::vector<Cell> cellsOf(const World& world, const Chart& chart,
                           const std::map<std::uint32_t, EmissionTexture>& textures);
 // The same on the other side of the surface.

@@ -93,7 +93,6 @@ TEST(LightTruth, ARectangleOverAFloorAndBesideAWall) {
         const Errors e = errorsOf(texelsOf(all, object), [&](dvec3 p, dvec3 n) {
           return kRadiance * lambert(room.corners, p, n);
         });
-        std::printf("%d %.2f %d worst %.5f rms %.5f\n", object, height, isFinal, e.worst, e.rms);
         EXPECT_LT(e.worst, isFinal ? 3.5e-3 : 1.6e-2);
         EXPECT_LT(e.rms, isFinal ? 1.5e-3 : 6e-3);
       }
@@ -143,7 +142,6 @@ TEST(LightTruth, ThePenumbraOfAHalfPlane) {
       };
       const double full = kIntensity / (kHeight * kHeight);
       const Errors e = errorsOf(texelsOf(lit(scene, 100.f, sampling), floor), truth, full);
-      std::printf("penumbra worst %.4f rms %.4f mean %.4f\n", e.worst, e.rms, e.mean);
       EXPECT_LT(e.worst, sampling.positions > 1 ? 0.01 : 0.09);
       EXPECT_LT(e.rms, sampling.positions > 1 ? 0.003 : 0.03);
     }
