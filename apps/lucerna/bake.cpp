@@ -26,9 +26,9 @@ struct Options {
 // What the presets stand for.
 const std::map<std::string, bake::Sampling>& presets() {
   static const std::map<std::string, bake::Sampling> known{
-      {"preview", {.positions = 1, .lightSamples = 1, .emitterSize = 0.5f}},
-      {"standard", {.positions = 1, .lightSamples = 16, .emitterSize = 0.25f}},
-      {"final", {.positions = 4, .lightSamples = 64, .emitterSize = 0.1f}}};
+      {"preview", {.positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f}},
+      {"standard", {.positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f}},
+      {"final", {.positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f}}};
   return known;
 }
 
@@ -56,7 +56,8 @@ Json describe(const bake::Plan& plan) {
           {"texels", plan.texels()},
           {"maps", plan.packed.packing.maps},
           {"side", plan.settings.pack.side},
-          {"occupancy", bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side)},
+          {"occupancy",
+           bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side)},
           {"units", plan.units.size()},
           {"lights", lights},
           {"groups", plan.groups.size() - 1}};

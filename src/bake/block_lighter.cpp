@@ -504,4 +504,26 @@ void BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
   }
 }
 
+std::vector<bool> BlockLighter::unevenTexels(const Samples& samples, float share,
+                                             std::size_t texels) const {
+  std::vector<bool> uneven(texels, false);
+  const auto brightness = [&](std::size_t i) { return sums_[i].x + sums_[i].y + sums_[i].z; };
+  float most = 0.f;
+  for (std::size_t i = 0; i < samples.size(); ++i) most = std::max(most, brightness(i));
+  constexpr float kFaint = 0.01f;  // of the brightest: no texel's mean counts as less
+  for (std::size_t i = 0; i < samples.size();) {
+    const std::size_t first = i;
+    float low = std::numeric_limits<float>::infinity(), high = 0.f, sum = 0.f;
+    for (; i < samples.size() && samples.texels[i] == samples.texels[first]; ++i) {
+      const float b = brightness(i);
+      low = std::min(low, b);
+      high = std::max(high, b);
+      sum += b;
+    }
+    const float mean = sum / static_cast<float>(i - first);
+    uneven[samples.texels[first]] = high - low > share * std::max(mean, kFaint * most);
+  }
+  return uneven;
+}
+
 }  // namespace lucerna::bake

@@ -56,6 +56,10 @@ class BlockLighter {
   void light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
              std::span<vec3> texels);
 
+  // Of the block that was lit last, texels whose samples differ by more than this share of their
+  // mean: shadows' edges. As `texels` above.
+  std::vector<bool> unevenTexels(const Samples& samples, float share, std::size_t texels) const;
+
   LightCounters counters;
 
  private:

@@ -32,16 +32,16 @@ void addTexels(std::vector<LitTexel>& list, const Plan& plan, const Block& block
   }
 }
 
-std::vector<LitTexel> lightBlock(const Plan& plan, BlockLighter& lighter, const Block& block) {
-  ChartSampler sampler(plan.world, plan.charts.charts[block.chart],
-                       plan.settings.sampling.positions);
-  Samples samples;
-  sampler.sample(block, samples);
-  std::vector<vec3> light(static_cast<std::size_t>(block.size.x) * block.size.y, vec3(0.f));
-  for (std::size_t g = 0; g < plan.groups.size(); ++g)
-    lighter.light(samples, plan.groups[g].lights, g == 0, light);
+std::vector<LitTexel> lightBlock(const Plan& plan, UnitLighter& lighter, const Block& block) {
+  const Samples& samples = lighter.sample(block);
+  std::vector<vec3> sum(static_cast<std::size_t>(block.size.x) * block.size.y, vec3(0.f));
+  std::vector<vec3> light(sum.size());
+  for (std::uint32_t g = 0; g < plan.groups.size(); ++g) {
+    lighter.lightGroup(g, light);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += light[i];
+  }
   std::vector<LitTexel> texels;
-  addTexels(texels, plan, block, samples, light);
+  addTexels(texels, plan, block, samples, sum);
   return texels;
 }
 
@@ -62,11 +62,7 @@ std::vector<LitTexel> lightSome(const Plan& plan, std::size_t step) {
   const LightScene scene(plan);
   std::vector<std::vector<LitTexel>> parts((plan.blocks.size() + step - 1) / step);
   parallelFor(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
-    BlockLighter lighter(*scene.tracer, scene.occluders, scene.emitters,
-                         {.lightSamples = plan.settings.sampling.lightSamples,
-                          .emitterSize = plan.settings.sampling.emitterSize,
-                          .sceneDiagonal = scene.diagonal},
-                         *plan.world.scene);
+    UnitLighter lighter(plan, scene);
     for (std::size_t i = begin; i < end; ++i)
       parts[i] = lightBlock(plan, lighter, plan.blocks[i * step]);
   });

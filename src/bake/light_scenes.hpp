@@ -8,8 +8,10 @@
 
 namespace lucerna::bake::testing {
 
-inline constexpr Sampling kStandard{.positions = 1, .lightSamples = 16, .emitterSize = 0.25f};
-inline constexpr Sampling kFinal{.positions = 4, .lightSamples = 64, .emitterSize = 0.1f};
+inline constexpr Sampling kStandard{
+    .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
+inline constexpr Sampling kFinal{
+    .positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f};
 
 struct LitTexel {
   std::uint32_t object = 0;                     // of the scene's

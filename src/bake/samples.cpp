@@ -164,6 +164,7 @@ void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
   for (int y = range.first.y; y < range.end.y; ++y)
     for (int x = range.first.x; x < range.end.x; ++x) {
       const auto texel = static_cast<std::size_t>(y * block.size.x + x);
+      if (left_[texel]) continue;
       for (std::size_t i = 0; i < perTexel(); ++i) {
         Found& found = found_[texel * perTexel() + i];
         if (found.triangle != Found::kNothing) continue;
@@ -185,7 +186,7 @@ void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
   for (int y = range.first.y; y < range.end.y; ++y)
     for (int x = range.first.x; x < range.end.x; ++x) {
       const auto texel = static_cast<std::size_t>(y * block.size.x + x);
-      if (inside_[texel]) continue;
+      if (inside_[texel] || left_[texel]) continue;
       const dvec2 corner(block.corner + ivec2(x, y));
       ClipPolygon polygon(corners);
       polygon.cutTo(corner, corner + 1.);
@@ -268,11 +269,14 @@ void ChartSampler::lift(Samples& samples) const {
     }
 }
 
-void ChartSampler::sample(const Block& block, Samples& samples) {
+void ChartSampler::sample(const Block& block, Samples& samples, const std::vector<bool>& only) {
   clear(samples);
   const auto texels = static_cast<std::size_t>(block.size.x) * block.size.y;
   found_.assign(texels * perTexel(), {});
   inside_.assign(texels, false);
+  left_ = only;
+  left_.resize(texels, true);
+  left_.flip();
   const ivec2 place = block.corner / kBlockSide;
   const auto& triangles = touching_[static_cast<std::size_t>(place.y * blocksAcross_ + place.x)];
   for (const std::uint32_t triangle : triangles) findInside(block, triangle);

@@ -60,8 +60,9 @@ class ChartSampler {
 
   // A texel's samples are those of an even pattern that lie in one of the chart's triangles. Where
   // none does and yet the chart touches it: the middle of what it covers of the texel.
-  // The block may be a part of one that addBlocks() gives.
-  void sample(const Block& block, Samples& samples);
+  // The block may be a part of one that addBlocks() gives. only: of its texels, row by row, those
+  // that are asked for; empty: all.
+  void sample(const Block& block, Samples& samples, const std::vector<bool>& only = {});
 
   // Where steps of a texel along the chart's x and y lead on a triangle of its list, m in the
   // world.
@@ -99,6 +100,7 @@ class ChartSampler {
   std::vector<std::vector<std::uint32_t>> touching_;  // of each block: places in the chart's list
   std::vector<Found> found_;  // of the block under way, perTexel() for each texel
   std::vector<bool> inside_;  // of its texels: one of its samples lies in a triangle
+  std::vector<bool> left_;    // of its texels: not asked for
 };
 
 }  // namespace lucerna::bake
