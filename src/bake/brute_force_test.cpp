@@ -18,7 +18,6 @@ using namespace testing;
 
 struct Comparison {
   double rmse = 0., p99 = 0., p50 = 0., bias = 0.;  // shares of the mean
-  double edges = 0.;  // share of the squared error that lies in texels off by more than 2 %
 };
 
 struct Case {
@@ -56,32 +55,58 @@ Comparison compare(const Case& c, const Sampling& sampling) {
   double mean = 0.;
   for (const double w : wanted) mean += w / static_cast<double>(wanted.size());
   Comparison result;
-  double squares = 0., large = 0.;
+  double squares = 0.;
   for (double& o : off) {
     o /= mean;
     result.bias += o / static_cast<double>(off.size());
     squares += o * o;
-    if (std::abs(o) > 0.02) large += o * o;
     o = std::abs(o);
   }
   result.rmse = std::sqrt(squares / static_cast<double>(off.size()));
-  result.edges = large / squares;
   std::ranges::sort(off);
   result.p99 = off[off.size() * 99 / 100];
   result.p50 = off[off.size() / 2];
-  std::printf("%-40s %s rmse %.4f p50 %.5f p99 %.4f bias %+.5f edges %.2f\n", c.scene,
-              sampling.positions == 1 ? "standard" : "final", result.rmse, result.p50, result.p99,
-              result.bias, result.edges);
   return result;
 }
 
-TEST(BruteForce, Scenes) {
+// What the preset `final` promises: 0.5 % of the mean as root mean square, 2 % of it for 99 of 100
+// texels. Bounds are for 500 texels, whose own truth is known to some tenths of a per cent at
+// edges.
+void expectFinal(const Case& c, double rmse, double p99) {
+  const Comparison found = compare(c, kFinal);
+  EXPECT_LT(found.rmse, rmse) << c.scene;
+  EXPECT_LT(found.p99, p99) << c.scene;
+  EXPECT_LT(std::abs(found.bias), 0.005) << c.scene;
+}
+
+TEST(BruteForce, FinalAgreesOnPenumbra) {
+  expectFinal({"builtin:penumbra", 20.f, 1, 500, 1024}, 0.005, 0.02);
+}
+TEST(BruteForce, FinalAgreesOnCornell) {
+  expectFinal({"builtin:cornell", 30.f, 1, 500, 1024}, 0.01, 0.04);
+}
+TEST(BruteForce, FinalAgreesOnAtrium) {
+  expectFinal({"builtin:atrium", 8.f, 40, 500, 1024, false}, 0.006, 0.03);
+}
+// Ironwork close to the lamps is seen from few of their points.
+TEST(BruteForce, FinalAgreesOnAtriumWithSpheres) {
+  expectFinal({"builtin:atrium?kind=point", 8.f, 40, 500, 1024, false}, 0.03, 0.1);
+}
+TEST(BruteForce, FinalAgreesOnNightCity) {
+  expectFinal({"builtin:nightcity", 1.75f, 200, 500, 1024, false}, 0.006, 0.02);
+}
+
+// One place a texel: at the edges of shadows it is off by what they cut from the texel; elsewhere
+// it is not.
+TEST(BruteForce, StandardAgreesAwayFromEdges) {
   for (const Case& c :
-       {Case{"builtin:penumbra", 20.f, 1, 2000, 1024}, Case{"builtin:cornell", 30.f, 1, 1000, 1024},
-        Case{"builtin:atrium", 8.f, 20, 1000, 1024, false},
-        Case{"builtin:atrium?kind=point", 8.f, 20, 1000, 1024, false},
-        Case{"builtin:nightcity", 1.75f, 100, 1000, 1024, false}})
-    for (const Sampling& sampling : {kStandard, kFinal}) compare(c, sampling);
+       {Case{"builtin:penumbra", 20.f, 1, 500, 1024}, Case{"builtin:cornell", 30.f, 1, 500, 1024},
+        Case{"builtin:atrium", 8.f, 40, 500, 1024, false}}) {
+    const Comparison found = compare(c, kStandard);
+    EXPECT_LT(found.p50, 0.003) << c.scene;
+    EXPECT_LT(found.rmse, 0.3) << c.scene;
+    EXPECT_LT(std::abs(found.bias), 0.02) << c.scene;
+  }
 }
 
 }  // namespace

@@ -93,7 +93,9 @@ TEST(LightTruth, ARectangleOverAFloorAndBesideAWall) {
         const Errors e = errorsOf(texelsOf(all, object), [&](dvec3 p, dvec3 n) {
           return kRadiance * lambert(room.corners, p, n);
         });
-        EXPECT_LT(e.worst, isFinal ? 3.5e-3 : 1.6e-2);
+        // Texels that are lit from more places than the truth knows of differ more where light
+        // falls off within them.
+        EXPECT_LT(e.worst, !isFinal ? 1.6e-2 : height < 0.1f ? 1e-2 : 3.5e-3);
         EXPECT_LT(e.rms, isFinal ? 1.5e-3 : 6e-3);
       }
     }

@@ -41,9 +41,10 @@ Emitters emittersOf(const Plan& plan) {
                       plan.settings.reach);
 }
 
-LighterSettings settingsOf(const Plan& plan, const LightScene& scene, int lightSamples) {
-  return {.lightSamples = lightSamples,
-          .emitterSize = plan.settings.sampling.emitterSize,
+// coarseness: of emitting surfaces, a factor of what is set.
+LighterSettings settingsOf(const Plan& plan, const LightScene& scene, float coarseness) {
+  return {.lightSamples = plan.settings.sampling.lightSamples,
+          .emitterSize = coarseness * plan.settings.sampling.emitterSize,
           .sceneDiagonal = scene.diagonal};
 }
 
@@ -96,11 +97,9 @@ LightScene::LightScene(const Plan& plan)
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
-      lighter_(*scene.tracer, scene.occluders, scene.emitters,
-               settingsOf(plan, scene, plan.settings.sampling.lightSamples), *plan.world.scene),
-      // Where there are many places, fewer points do.
-      fineLighter_(*scene.tracer, scene.occluders, scene.emitters,
-                   settingsOf(plan, scene, (plan.settings.sampling.lightSamples + 3) / 4),
+      lighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 1.f),
+               *plan.world.scene),
+      fineLighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 0.7f),
                    *plan.world.scene) {}
 
 LightCounters UnitLighter::counters() const {
@@ -126,23 +125,29 @@ const Samples& UnitLighter::sample(const Block& block) {
 
 void UnitLighter::lightGroup(std::uint32_t group, std::span<vec3> texels) {
   std::ranges::fill(texels, vec3(0.f));
-  lighter_.light(samples_, plan_.groups[group].lights, group == 0, texels);
-  if (fineSampler_) refine(group, texels);
+  addLight(plan_.groups[group].lights, false, texels);
+  if (group == 0) addLight({}, true, texels);
 }
 
-// Lights texels that shadows' edges cross once more, from more places.
-void UnitLighter::refine(std::uint32_t group, std::span<vec3> texels) {
+// Texels that shadows' edges cross are lit once more, from more places.
+void UnitLighter::addLight(std::span<const scene::PlacedLight> lights, bool emitters,
+                           std::span<vec3> texels) {
   constexpr float kUneven = 0.1f;
-  if (std::ranges::all_of(texels, [](vec3 v) { return v == vec3(0.f); })) return;
-  const std::vector<bool> uneven = lighter_.unevenTexels(samples_, kUneven, texels.size());
-  if (std::ranges::find(uneven, true) == uneven.end()) return;
-  const auto start = Clock::now();
-  fineSampler_->sample(block_, fineSamples_, uneven);
-  samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
-  fineTexels_.assign(texels.size(), vec3(0.f));
-  fineLighter_.light(fineSamples_, plan_.groups[group].lights, group == 0, fineTexels_);
-  for (std::size_t i = 0; i < texels.size(); ++i)
-    if (uneven[i]) texels[i] = fineTexels_[i];
+  part_.assign(texels.size(), vec3(0.f));
+  lighter_.light(samples_, lights, emitters, part_);
+  if (std::ranges::all_of(part_, [](vec3 v) { return v == vec3(0.f); })) return;
+  std::vector<bool> uneven;
+  if (fineSampler_) uneven = lighter_.unevenTexels(samples_, kUneven, texels.size());
+  if (std::ranges::find(uneven, true) != uneven.end()) {
+    const auto start = Clock::now();
+    fineSampler_->sample(block_, fineSamples_, uneven);
+    samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+    finePart_.assign(texels.size(), vec3(0.f));
+    fineLighter_.light(fineSamples_, lights, emitters, finePart_);
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      if (uneven[i]) part_[i] = finePart_[i];
+  }
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] += part_[i];
 }
 
 BlockLight UnitLighter::lightBlock(const Block& block) {

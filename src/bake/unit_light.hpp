@@ -50,14 +50,14 @@ class UnitLighter {
 
  private:
   BlockLight lightBlock(const Block& block);
-  void refine(std::uint32_t group, std::span<vec3> texels);
+  void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
 
   const Plan& plan_;
   BlockLighter lighter_, fineLighter_;
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
   Samples samples_, fineSamples_;
-  std::vector<vec3> texels_, fineTexels_;
+  std::vector<vec3> texels_, part_, finePart_;
 };
 
 }  // namespace lucerna::bake
