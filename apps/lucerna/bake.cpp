@@ -35,9 +35,9 @@ struct Options {
 // What the presets stand for.
 const std::map<std::string, bake::Sampling>& presets() {
   static const std::map<std::string, bake::Sampling> known{
-      {"preview", {.positions = 1, .lightSamples = 1, .emitterSize = 0.5f}},
-      {"standard", {.positions = 1, .lightSamples = 16, .emitterSize = 0.25f}},
-      {"final", {.positions = 4, .lightSamples = 64, .emitterSize = 0.1f}}};
+      {"preview", {.positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f}},
+      {"standard", {.positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f}},
+      {"final", {.positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f}}};
   return known;
 }
 

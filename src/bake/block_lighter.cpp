@@ -1,12 +1,13 @@
 #include "bake/block_lighter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "bake/polygon_light.hpp"
 #include "core/check.hpp"
 #include "trace/light_sampling.hpp"
-#include "trace/low_discrepancy.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -15,7 +16,9 @@ using scene::LightKind;
 using scene::PlacedLight;
 using Clock = std::chrono::steady_clock;
 
-constexpr int kFirstPoints = 4;  // of a light with a size: if they agree, they stand for all
+// On the rim of a light with a size: if they agree, they stand for all. Of a disc beyond a straight
+// edge that all of them miss there is 1 %.
+constexpr int kRimPoints = 8;
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -39,36 +42,67 @@ float ballOf(const PlacedLight& light) {
   return light.kind == LightKind::Directional ? 0.f : light.radius;
 }
 
+// From the middle of a sphere to its surface.
+float ballAhead(const PlacedLight& light) {
+  return light.kind == LightKind::Point ? light.radius : 0.f;
+}
+
 bool hasSize(const PlacedLight& light) {
   return light.kind == LightKind::Directional ? light.angle > 0.f : light.radius > 0.f;
 }
 
-// Points that share what the light gives, the same for all samples of the block: on a spot light's
-// disc, on the disc of a sphere that faces the block, in the cone of a directional light. Seen
-// along any edge they lie in many lines rather than few, so that penumbrae have many steps, and the
-// first four lie in one quarter each.
-std::vector<PlacedLight> pointsOn(const PlacedLight& light, int count, vec3 blockW) {
-  if (!hasSize(light) || count == 1) return {light};
-  const bool directional = light.kind == LightKind::Directional;
-  const vec3 axis =
-      light.kind == LightKind::Point ? glm::normalize(blockW - light.positionW) : light.directionW;
-  const trace::Frame frame(std::isfinite(axis.x) ? axis : vec3(0.f, 1.f, 0.f));
-  const float radius =
-      directional ? std::tan(0.5f * std::min(light.angle, 0.5f * kPi)) : light.radius;
-  std::vector<PlacedLight> points(static_cast<std::size_t>(count), light);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    constexpr std::uint32_t kSeed = 1;
-    const vec2 p =
-        radius * trace::discPoint(trace::lowDiscrepancyPoint(static_cast<std::uint32_t>(i), kSeed));
-    PlacedLight& point = points[i];
-    if (directional)
-      point.directionW = glm::normalize(axis + frame.x * p.x + frame.y * p.y);
-    else
-      point.positionW += frame.x * p.x + frame.y * p.y;
-    point.intensity /= static_cast<float>(count);
-    point.radius = point.angle = 0.f;
+// A light as a disc: of a spot light; of a sphere, the one that faces the place; of a directional
+// light, a cone of directions.
+class Disc {
+ public:
+  Disc(const PlacedLight& light, vec3 placeW) : light_(light), frame_(axisOf(light, placeW)) {}
+
+  // p: of the unit disc.
+  LightPoint at(vec2 p) const {
+    LightPoint point{.light = light_, .centreW = light_.positionW};
+    point.light.radius = point.light.angle = 0.f;
+    const float squared = std::min(glm::dot(p, p), 1.f);
+    if (light_.kind == LightKind::Directional) {
+      // Uniform in solid angle, and as bright as trace/light_sampling.hpp.
+      const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
+      const float below = squared * (1.f - cosHalf);
+      const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
+      point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
+      point.light.intensity *= 2.f / (1.f + cosHalf);
+      return point;
+    }
+    point.light.positionW += light_.radius * (frame_.x * p.x + frame_.y * p.y);
+    if (light_.kind == LightKind::Point) {
+      point.ahead = light_.radius * std::sqrt(1.f - squared);
+    } else {
+      point.centreW = point.light.positionW;
+    }
+    return point;
   }
-  return points;
+
+ private:
+  static vec3 axisOf(const PlacedLight& light, vec3 placeW) {
+    if (light.kind == LightKind::Spot) return light.directionW;
+    if (light.kind == LightKind::Directional) return -light.directionW;
+    const vec3 to = placeW - light.positionW;
+    const float distance = glm::length(to);
+    return distance > 0.f ? to / distance : vec3(0.f, 1.f, 0.f);
+  }
+
+  const PlacedLight& light_;
+  trace::Frame frame_;
+};
+
+vec2 onCircle(float radius, float turn) {
+  return radius * vec2(std::cos(2.f * kPi * turn), std::sin(2.f * kPi * turn));
+}
+
+// The i-th of n points that fill the unit disc evenly, seen along any edge too (Vogel, "A Better
+// Way to Construct the Sunflower Head", 1979).
+vec2 spiralPoint(int i, int n) {
+  constexpr float kGolden = 0.381966f;  // of a turn
+  return onCircle(std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)),
+                  kGolden * static_cast<float>(i));
 }
 
 }  // namespace
@@ -107,7 +141,8 @@ bool BlockLighter::mayLight(const Samples& samples, const PlacedLight& light) co
 }
 
 // weights_: what each sample gets of the point's intensity where nothing is in the way.
-void BlockLighter::shade(const Samples& s, const PlacedLight& p, Tile range) {
+void BlockLighter::shade(const Samples& s, const LightPoint& point, Tile range) {
+  const PlacedLight& p = point.light;
   const std::size_t count = range.count;
   weights_.resize(s.size());
   float* weights = weights_.data() + range.first;
@@ -121,11 +156,12 @@ void BlockLighter::shade(const Samples& s, const PlacedLight& p, Tile range) {
       weights[i] = std::max(nx[i] * l.x + ny[i] * l.y + nz[i] * l.z, 0.f);
     return;
   }
-  const vec3 from = p.positionW, a = p.attenuation;
+  const vec3 from = p.positionW, centre = point.centreW, a = p.attenuation;
   const float inverseReach = 1.f / p.reach;  // 0 for an infinite reach
   for (std::size_t i = 0; i < count; ++i) {
     const float lx = from.x - x[i], ly = from.y - y[i], lz = from.z - z[i];
-    const float distance = std::sqrt(lx * lx + ly * ly + lz * lz);
+    const float cx = centre.x - x[i], cy = centre.y - y[i], cz = centre.z - z[i];
+    const float distance = std::sqrt(cx * cx + cy * cy + cz * cz);
     const float d = std::max(distance, 0.01f);  // as scene/light.hpp
     const float ratio = std::min(distance * inverseReach, 1.f);
     const float window = 1.f - ratio * ratio * ratio * ratio;
@@ -155,7 +191,7 @@ void BlockLighter::shade(const Samples& s, const PlacedLight& p, Tile range) {
 
 // Appends to lit_ and rays_ the samples of the range that the point may light, of those in `among`
 // (all if it is empty).
-void BlockLighter::collect(const Samples& s, const PlacedLight& p, Tile range,
+void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
                            std::span<const std::uint32_t> among) {
   const std::size_t first = lit_.size();
   if (among.empty()) {
@@ -166,12 +202,14 @@ void BlockLighter::collect(const Samples& s, const PlacedLight& p, Tile range,
       if (weights_[i] > 0.f) lit_.push_back(i);
   }
   rays_.resize(lit_.size());
-  const bool directional = p.kind == LightKind::Directional;
-  const vec3 back = -p.directionW * settings_.sceneDiagonal;
+  const bool directional = p.light.kind == LightKind::Directional;
+  const vec3 back = -p.light.directionW * settings_.sceneDiagonal;
   for (std::size_t i = first; i < lit_.size(); ++i) {
     const std::size_t at = lit_[i];
     const vec3 to(s.x[at], s.y[at], s.z[at]);
-    const vec3 from = directional ? to + back : p.positionW;
+    vec3 from = directional ? to + back : p.light.positionW;
+    if (p.ahead > 0.f)
+      from += (to - from) * std::min(p.ahead / std::max(glm::distance(to, from), 1e-6f), 0.999f);
     rays_.fromX[i] = from.x;
     rays_.fromY[i] = from.y;
     rays_.fromZ[i] = from.z;
@@ -181,30 +219,17 @@ void BlockLighter::collect(const Samples& s, const PlacedLight& p, Tile range,
   }
 }
 
-void BlockLighter::addPoint(const Samples& samples, const PlacedLight& point, bool clear,
-                            std::span<const std::uint32_t> among) {
-  auto start = Clock::now();
-  const Tile all{.first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = {}};
-  shade(samples, point, all);
+// Leaves lit_ and what each of them sees in shares_.
+void BlockLighter::tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
+                              std::span<const std::uint32_t> among) {
   lit_.clear();
-  collect(samples, point, all, among);
+  collect(samples, point, range, among);
   shares_.assign(lit_.size(), vec3(1.f));
   counters.pairs += lit_.size();
-  counters.shadingSeconds += secondsSince(start);
-  if (!clear) {
-    start = Clock::now();
-    tracer_.trace(rays_, shares_);
-    counters.rays += lit_.size();
-    counters.tracingSeconds += secondsSince(start);
-  }
-  start = Clock::now();
-  for (std::size_t i = 0; i < lit_.size(); ++i) {
-    const std::size_t at = lit_[i];
-    light_[at] += point.intensity * weights_[at] * shares_[i];
-    seen_[at] += (shares_[i].x + shares_[i].y + shares_[i].z) / 3.f;
-    ++asked_[at];
-  }
-  counters.shadingSeconds += secondsSince(start);
+  counters.rays += lit_.size();
+  const auto start = Clock::now();
+  tracer_.trace(rays_, shares_);
+  counters.tracingSeconds += secondsSince(start);
 }
 
 bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) const {
@@ -216,33 +241,91 @@ bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) con
   return !occluders_.anyIn(shaftFrom(light.positionW, ballOf(light), samples));
 }
 
+// Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
+void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
+  const Disc disc(light, tile.boundsW.center());
+  const auto ask = [&](vec2 p) {
+    const LightPoint point = disc.at(p);
+    shade(samples, point, tile);
+    tracePoint(samples, point, tile, unsure_);
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+      seen_[lit_[i]] += weights_[lit_[i]] * shares_[i];
+      asked_[lit_[i]] += weights_[lit_[i]];
+    }
+  };
+  const auto restart = [&] {
+    for (const std::uint32_t i : unsure_) {
+      seen_[i] = vec3(0.f);
+      asked_[i] = 0.f;
+    }
+  };
+  restart();
+  for (int i = 0; i < kRimPoints; ++i)
+    ask(onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints)));
+  std::erase_if(unsure_, [&](std::uint32_t i) {
+    return asked_[i] > 0.f && (seen_[i] == vec3(0.f) || seen_[i] == vec3(asked_[i]));
+  });
+  restart();
+  if (unsure_.empty()) return;
+  for (int i = 0; i < settings_.lightSamples; ++i) ask(spiralPoint(i, settings_.lightSamples));
+}
+
+void BlockLighter::lightBySized(const Samples& samples, const Tile& tile, const PlacedLight& light,
+                                bool clear) {
+  const std::uint32_t end = tile.first + tile.count;
+  const Disc disc(light, tile.boundsW.center());
+  // Four points on the circle that halves the disc give what all of it gives, but for terms of the
+  // fourth order.
+  constexpr int kPoints = 4;
+  std::fill(full_.begin() + tile.first, full_.begin() + end, 0.f);
+  for (int k = 0; k < kPoints; ++k) {
+    shade(samples, disc.at(onCircle(std::sqrt(0.5f), static_cast<float>(k) / kPoints)), tile);
+    for (std::uint32_t i = tile.first; i < end; ++i) full_[i] += weights_[i] / kPoints;
+  }
+  unsure_.clear();
+  for (std::uint32_t i = tile.first; i < end; ++i) {
+    if (full_[i] <= 0.f) continue;
+    seen_[i] = vec3(1.f);
+    asked_[i] = 1.f;
+    unsure_.push_back(i);
+  }
+  if (clear)
+    counters.pairs += unsure_.size();
+  else if (!unsure_.empty())
+    traceSized(samples, tile, light);
+  const vec3 intensity = disc.at(vec2(0.f)).light.intensity;
+  for (std::uint32_t i = tile.first; i < end; ++i)
+    if (full_[i] > 0.f && asked_[i] > 0.f)
+      sums_[i] += intensity * (full_[i] / asked_[i]) * seen_[i];
+}
+
 void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   const auto start = Clock::now();
+  const double tracing = counters.tracingSeconds;
   const bool clear = isClear(samples, light);
   counters.tracingSeconds += secondsSince(start);
-  const std::vector<PlacedLight> points =
-      pointsOn(light, settings_.lightSamples, samples.boundsW.center());
-  const std::size_t first =
-      points.size() == 1 ? 1 : std::min<std::size_t>(kFirstPoints, points.size());
-  light_.assign(samples.size(), vec3(0.f));
-  seen_.assign(samples.size(), 0.f);
-  asked_.assign(samples.size(), 0);
-  for (std::size_t i = 0; i < first; ++i) addPoint(samples, points[i], clear, {});
-  if (first < points.size()) {
-    const float share = static_cast<float>(points.size()) / static_cast<float>(first);
-    unsure_.clear();
-    for (std::uint32_t i = 0; i < samples.size(); ++i) {
-      const bool partly = seen_[i] > 0.f && seen_[i] < static_cast<float>(first);
-      if (partly)
-        unsure_.push_back(i);
-      else
-        light_[i] *= share;
+  if (hasSize(light) && settings_.lightSamples > 1) {
+    full_.resize(samples.size());
+    seen_.resize(samples.size());
+    asked_.resize(samples.size());
+    for (const Tile& tile : samples.tiles) lightBySized(samples, tile, light, clear);
+  } else {
+    const LightPoint point = {
+        .light = light, .centreW = light.positionW, .ahead = ballAhead(light)};
+    const Tile all{.first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = {}};
+    shade(samples, point, all);
+    if (clear) {
+      for (std::uint32_t i = 0; i < all.count; ++i) {
+        sums_[i] += light.intensity * weights_[i];
+        counters.pairs += weights_[i] > 0.f;
+      }
+    } else {
+      tracePoint(samples, point, all, {});
+      for (std::size_t i = 0; i < lit_.size(); ++i)
+        sums_[lit_[i]] += light.intensity * weights_[lit_[i]] * shares_[i];
     }
-    if (!unsure_.empty())
-      for (std::size_t i = first; i < points.size(); ++i)
-        addPoint(samples, points[i], false, unsure_);
   }
-  for (std::size_t i = 0; i < samples.size(); ++i) sums_[i] += light_[i];
+  counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
 }
 
 // False only if nothing of the node reaches the tile.
@@ -250,12 +333,10 @@ bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
                             const EmitterNode& node) const {
   const bool oneWay = node.isCell() || node.emission.normalW != vec3(0.f);
   if (samples.planar) {
-    // A cell's surface reaches around its middle, by no more than it is inclined.
-    const float inclined = glm::dot(samples.axis, node.axis);
-    const float more =
-        oneWay ? node.size * std::sqrt(std::max(1.f - inclined * inclined, 0.f)) : node.size;
-    if (highestAlong(samples.axis, node.boxW) - glm::dot(samples.axis, samples.corners[0]) + more <=
-        liftAt(samples.corners[0]))
+    // The corner of the box that is highest above the tile's plane.
+    const vec3 highest = glm::mix(node.boxW.min, node.boxW.max, glm::step(vec3(0.f), samples.axis));
+    // What lies in the tile's own plane is as clear of it as the samples.
+    if (glm::dot(samples.axis, highest - samples.corners[0]) <= liftAt(samples.corners[0]))
       return false;
   }
   if (oneWay && highestAlong(node.axis, tile.boundsW) + highestAlong(-node.axis, node.boxW) <=
@@ -265,7 +346,7 @@ bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
   // Whether all directions from the node to the tile are behind all of its normals: both as balls.
   const vec3 to = tile.boundsW.center() - node.boxW.center();
   const float distance = glm::length(to);
-  const float ball = 0.5f * (tile.boundsW.diagonal() + node.boxW.diagonal()) + node.size;
+  const float ball = 0.5f * (tile.boundsW.diagonal() + node.boxW.diagonal());
   if (distance <= ball) return true;
   const float sinSpread = std::sqrt(std::max(1.f - node.cosine * node.cosine, 0.f));
   const float sinBall = ball / distance;
@@ -273,15 +354,46 @@ bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
   return glm::dot(to / distance, node.axis) > -(sinSpread + sinBall);
 }
 
+// weights_, as shade(): of a point of a surface.
+void BlockLighter::shadeEmission(const Samples& s, const Emission& e, float reach, Tile range) {
+  if (scene_.bake.area) {
+    shade(s, {.light = lightOf(e, scene_, reach), .centreW = e.positionW}, range);
+    return;
+  }
+  const std::size_t count = range.count;
+  weights_.resize(s.size());
+  float* weights = weights_.data() + range.first;
+  const float *x = s.x.data() + range.first, *y = s.y.data() + range.first,
+              *z = s.z.data() + range.first;
+  const float *nx = s.nx.data() + range.first, *ny = s.ny.data() + range.first,
+              *nz = s.nz.data() + range.first;
+  const vec3 from = e.positionW, axis = e.normalW;
+  const float inverse = 1.f / (reach * reach);  // 0 for an infinite reach
+  for (std::size_t i = 0; i < count; ++i) {
+    const float lx = from.x - x[i], ly = from.y - y[i], lz = from.z - z[i];
+    const float squared = lx * lx + ly * ly + lz * lz;
+    const float receiving = nx[i] * lx + ny[i] * ly + nz[i] * lz;
+    const float sending = -(axis.x * lx + axis.y * ly + axis.z * lz);
+    const float ratio = std::min(squared * inverse, 1.f);
+    const float window = 1.f - ratio * ratio;
+    const float d2 = std::max(squared, 1e-8f);
+    weights[i] = std::max(receiving, 0.f) * std::max(sending, 0.f) * window * window / (d2 * d2);
+  }
+}
+
+// corrected: the weights times corrections_.
 void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
-                               float reach) {
-  const PlacedLight point = lightOf(emission, scene_, reach);
-  shade(samples, point, tile);
+                               float reach, bool corrected) {
+  shadeEmission(samples, emission, reach, tile);
+  if (corrected)
+    for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i)
+      weights_[i] *= corrections_[i];
+  const LightPoint point{.light = lightOf(emission, scene_, reach), .centreW = emission.positionW};
   const std::size_t first = lit_.size();
   collect(samples, point, tile, {});
   values_.resize(lit_.size());
   for (std::size_t i = first; i < lit_.size(); ++i)
-    values_[i] = point.intensity * weights_[lit_[i]];
+    values_[i] = point.light.intensity * weights_[lit_[i]];
   constexpr std::size_t kMostRays = 4096;
   if (lit_.size() >= kMostRays) flush();
 }
@@ -299,24 +411,55 @@ void BlockLighter::flush() {
   counters.tracingSeconds += secondsSince(start);
 }
 
-// A cell or a node that is small enough for its distance: one point. A cell that is not: a grid of
-// points.
+// A cell by a grid of points: they tell what share of it is seen. What all of it gives where
+// nothing is in the way is known.
+void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                               int split) {
+  const int count = split * split;
+  const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
+  Emission part = cell.emission;
+  part.intensity /= static_cast<float>(count);
+  const auto pointAt = [&](int i) {
+    const vec2 at = (vec2(i % split, i / split) + 0.5f) / static_cast<float>(split) - 0.5f;
+    return middle + u * at.x + v * at.y;
+  };
+  const float area = glm::length(glm::cross(u, v));
+  const bool corrected = !scene_.bake.area && area > 0.f;
+  if (corrected) {
+    corrections_.resize(samples.size());
+    std::fill_n(corrections_.begin() + tile.first, tile.count, 0.f);
+    for (int i = 0; i < count; ++i) {
+      part.positionW = pointAt(i);
+      shadeEmission(samples, part, std::numeric_limits<float>::infinity(), tile);
+      for (std::uint32_t k = tile.first; k < tile.first + tile.count; ++k)
+        corrections_[k] += weights_[k];
+    }
+    const std::array<vec3, 4> corners{middle - 0.5f * (u + v), middle + 0.5f * (u - v),
+                                      middle + 0.5f * (u + v), middle - 0.5f * (u - v)};
+    for (std::uint32_t k = tile.first; k < tile.first + tile.count; ++k) {
+      float& correction = corrections_[k];
+      if (correction <= 0.f) continue;
+      const vec3 to(samples.x[k], samples.y[k], samples.z[k]);
+      const vec3 normal(samples.nx[k], samples.ny[k], samples.nz[k]);
+      correction =
+          polygonIrradiance(corners, to, normal) * static_cast<float>(count) / (area * correction);
+    }
+  }
+  for (int i = 0; i < count; ++i) {
+    part.positionW = pointAt(i);
+    addEmission(samples, tile, part, cell.reach, corrected);
+  }
+}
+
+// A node, or a cell that is small enough for its distance: one point.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                                float distance) {
-  constexpr int kMostSplit = 8;  // points along each side of a cell
+  constexpr float kMostSplit = 4.f;  // points along each side of a cell
   const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
-  const int split =
-      node.isCell()
-          ? static_cast<int>(std::clamp(std::ceil(wanted), 1.f, static_cast<float>(kMostSplit)))
-          : 1;
-  Emission part = node.emission;
-  part.intensity /= static_cast<float>(split * split);
-  for (int y = 0; y < split; ++y)
-    for (int x = 0; x < split; ++x) {
-      const vec2 at = (vec2(x, y) + 0.5f) / static_cast<float>(split) - 0.5f;
-      part.positionW = node.emission.positionW + node.alongU * at.x + node.alongV * at.y;
-      addEmission(samples, tile, part, node.reach);
-    }
+  if (node.isCell() && wanted > 1.f)
+    lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
+  else
+    addEmission(samples, tile, node.emission, node.reach, false);
 }
 
 // found_: the nodes with one direction that may light the block, for all of its tiles.
@@ -389,6 +532,28 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
     texels[samples.texels[begin]] = sum / static_cast<float>(i - begin);
   }
   return true;
+}
+
+std::vector<bool> BlockLighter::unevenTexels(const Samples& samples, float share,
+                                             std::size_t texels) const {
+  std::vector<bool> uneven(texels, false);
+  const auto brightness = [&](std::size_t i) { return sums_[i].x + sums_[i].y + sums_[i].z; };
+  float most = 0.f;
+  for (std::size_t i = 0; i < samples.size(); ++i) most = std::max(most, brightness(i));
+  constexpr float kFaint = 0.01f;  // of the brightest: no texel's mean counts as less
+  for (std::size_t i = 0; i < samples.size();) {
+    const std::size_t first = i;
+    float low = std::numeric_limits<float>::infinity(), high = 0.f, sum = 0.f;
+    for (; i < samples.size() && samples.texels[i] == samples.texels[first]; ++i) {
+      const float b = brightness(i);
+      low = std::min(low, b);
+      high = std::max(high, b);
+      sum += b;
+    }
+    const float mean = sum / static_cast<float>(i - first);
+    uneven[samples.texels[first]] = high - low > share * std::max(mean, kFaint * most);
+  }
+  return uneven;
 }
 
 }  // namespace lucerna::bake

@@ -29,12 +29,19 @@ struct LightCounters {
 };
 
 struct LighterSettings {
-  // Points on each light that has a size, where the first four do not agree on what they see; a
-  // power of two from 4 on, or 1: its middle.
+  // Points on each light that has a size, where eight on its rim do not agree on what they see; 1:
+  // its middle alone.
   int lightSamples = 16;
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   float sceneDiagonal = 1.f;  // m
+};
+
+// A point of a light.
+struct LightPoint {
+  scene::PlacedLight light;  // as if it had no size and stood there
+  vec3 centreW{0.f};         // of the light: distances count from there
+  float ahead = 0.f;         // m from the point to the light's surface, towards what is lit
 };
 
 // One thread's.
@@ -49,6 +56,10 @@ class BlockLighter {
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
              std::vector<vec3>& texels);
 
+  // Of the block that was lit last, texels whose samples differ by more than this share of their
+  // mean: shadows' edges. As `texels` above.
+  std::vector<bool> unevenTexels(const Samples& samples, float share, std::size_t texels) const;
+
   LightCounters counters;
 
  private:
@@ -57,11 +68,14 @@ class BlockLighter {
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
-  void addPoint(const Samples& samples, const scene::PlacedLight& point, bool clear,
-                std::span<const std::uint32_t> among);
-  void shade(const Samples& samples, const scene::PlacedLight& point, Tile range);
-  void collect(const Samples& samples, const scene::PlacedLight& point, Tile range,
+  void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
+                    bool clear);
+  void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
+  void shade(const Samples& samples, const LightPoint& point, Tile range);
+  void collect(const Samples& samples, const LightPoint& point, Tile range,
                std::span<const std::uint32_t> among);
+  void tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
+                  std::span<const std::uint32_t> among);
 
   // Emitting surfaces, tile by tile.
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
@@ -69,7 +83,10 @@ class BlockLighter {
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
-  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach);
+  void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, int split);
+  void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
+  void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,
+                   bool corrected);
   void flush();
 
   const ShadowTracer& tracer_;
@@ -78,17 +95,18 @@ class BlockLighter {
   LighterSettings settings_;
   const scene::Scene& scene_;
   // Of one point of a light:
-  std::vector<float> weights_;  // of its intensity that each sample gets, before shadows
+  std::vector<float> weights_;      // of its intensity that each sample gets, before shadows
+  std::vector<float> corrections_;  // of a cell's points: factors of weights_
   // Of the rays that are to be traced together:
   std::vector<std::uint32_t> lit_;  // samples that they lead to
   std::vector<vec3> values_;        // what these get if nothing is in the way; of emitters
   ShadowRays rays_;
   std::vector<vec3> shares_;                  // of the light that they let through
   std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
-  // Of a light, one a sample:
-  std::vector<vec3> light_;
-  std::vector<float> seen_;          // of the points asked
-  std::vector<std::uint8_t> asked_;  // points
+  // Of a light with a size, one a sample:
+  std::vector<float> full_;   // weights where nothing is in the way
+  std::vector<vec3> seen_;    // weights times shares, of the points that are asked
+  std::vector<float> asked_;  // their weights
   std::vector<std::uint32_t> unsure_;
   // Of all lights, one a sample:
   std::vector<vec3> sums_;

@@ -130,7 +130,7 @@ class EmbreeTracer final : public ShadowTracer {
       packet.dir_x[i] = rays.toX[at] - rays.fromX[at];
       packet.dir_y[i] = rays.toY[at] - rays.fromY[at];
       packet.dir_z[i] = rays.toZ[at] - rays.fromZ[at];
-      packet.tfar[i] = 1.f;
+      packet.tfar[i] = 1.f - kClearOfSample;
     }
   }
 

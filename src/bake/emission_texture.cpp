@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "trace/texture_reader.hpp"
-
 namespace lucerna::bake {
 namespace {
 
@@ -17,6 +15,33 @@ bool isBlack(const Image& image, int x, int y) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(channels) * size; ++i)
     if (pixel[i] != std::byte{0}) return false;
   return true;
+}
+
+// Linear colour at the centres of the pixels.
+Image linearOf(const scene::Texture& texture) {
+  const int width = texture.image->width(), height = texture.image->height();
+  Image linear(width, height, 3, ComponentType::F32);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
+                    (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+      const vec4 color = trace::colorAt(texture, uv);
+      std::copy_n(&color.x, 3, linear.pixel<float>(x, y));
+    }
+  return linear;
+}
+
+Image halved(const Image& image) {
+  Image half(image.width() / 2, image.height() / 2, 3, ComponentType::F32);
+  for (int y = 0; y < half.height(); ++y)
+    for (int x = 0; x < half.width(); ++x)
+      for (int c = 0; c < 3; ++c) {
+        float sum = 0.f;
+        for (const ivec2 p : {ivec2(0, 0), ivec2(1, 0), ivec2(0, 1), ivec2(1, 1)})
+          sum += image.pixel<float>(2 * x + p.x, 2 * y + p.y)[c];
+        half.pixel<float>(x, y)[c] = 0.25f * sum;
+      }
+  return half;
 }
 
 int wrapped(int value, int count) {
@@ -35,10 +60,16 @@ EmissionTexture::EmissionTexture(const scene::Texture& texture)
     for (int x = 0; x < texture.image->width(); ++x)
       if (!isBlack(*texture.image, x, y))
         shines_[static_cast<std::size_t>(y / kCell) * width_ + x / kCell] = true;
-}
-
-vec3 EmissionTexture::at(vec2 uv) const {
-  return vec3(trace::colorAt(texture_, uv));
+  const auto add = [&](Image image) {
+    levels_.push_back(texture);
+    levels_.back().image = std::make_shared<Image>(std::move(image));
+  };
+  add(linearOf(texture));
+  for (;;) {
+    const Image& last = *levels_.back().image;
+    if (last.width() % 2 != 0 || last.height() % 2 != 0) break;
+    add(halved(last));
+  }
 }
 
 bool EmissionTexture::shines(vec2 minUv, vec2 maxUv) const {

@@ -8,135 +8,15 @@
 #include <optional>
 
 #include "bake/emission_texture.hpp"
+#include "bake/emitting_cells.hpp"
 #include "core/check.hpp"
 #include "core/parallel.hpp"
 
 namespace lucerna::bake {
 namespace {
 
-constexpr int kSamples = 4;  // along each side of a texel
-constexpr int kTile = 8;     // texels that are asked at once whether they shine
-
 float brightness(vec3 color) {
   return color.x + color.y + color.z;
-}
-
-struct Cell {
-  Emission emission;
-  ivec2 texel{0};  // of its chart
-  vec3 alongU{0.f}, alongV{0.f};
-};
-
-// What a chart's object sends out.
-class Source {
- public:
-  Source(const World& world, const Chart& chart,
-         const std::map<std::uint32_t, EmissionTexture>& textures)
-      : scene_(*world.scene),
-        object_(world.objects[chart.object]),
-        chart_(chart),
-        mesh_(scene_.meshes[scene_.objects[object_.object].mesh]),
-        material_(scene_.materials[scene_.objects[object_.object].material]) {
-    const scene::TextureSlot& slot = material_.emissiveTexture;
-    if (slot.used() && slot.coordinates == scene::Coordinates::Mesh && hasCoords())
-      texture_ = &textures.at(slot.texture);
-  }
-
-  // Whether anything may shine within the tile.
-  bool shines(const Samples& samples) const {
-    if (!texture_) return true;
-    vec2 low(std::numeric_limits<float>::infinity()), high(-low);
-    for (std::size_t i = 0; i < samples.size(); ++i) {
-      const vec2 uv = uvAt(samples.triangles[i], samples.barycentrics[i]);
-      low = glm::min(low, uv);
-      high = glm::max(high, uv);
-    }
-    return texture_->shines(low, high);
-  }
-  vec3 radiance(std::uint32_t triangle, vec2 barycentric) const {
-    return texture_ ? material_.emissive * texture_->at(uvAt(triangle, barycentric))
-                    : material_.emissive;
-  }
-
- private:
-  bool hasCoords() const {
-    return !mesh_.texCoords[static_cast<std::size_t>(material_.emissiveTexture.texCoord)].empty();
-  }
-  vec2 uvAt(std::uint32_t triangle, vec2 barycentric) const {
-    const scene::TextureSlot& slot = material_.emissiveTexture;
-    const auto& coords = mesh_.texCoords[static_cast<std::size_t>(slot.texCoord)];
-    const std::uint32_t* corners = &mesh_.indices[3 * std::size_t{chart_.triangles[triangle]}];
-    const vec2 uv = coords[corners[0]] * (1.f - barycentric.x - barycentric.y) +
-                    coords[corners[1]] * barycentric.x + coords[corners[2]] * barycentric.y;
-    const vec2 scaled = slot.scale * uv;
-    const float sine = std::sin(slot.rotation), cosine = std::cos(slot.rotation);
-    // As KHR_texture_transform: counter-clockwise with v downwards.
-    return slot.offset +
-           vec2(cosine * scaled.x + sine * scaled.y, cosine * scaled.y - sine * scaled.x);
-  }
-
-  const scene::Scene& scene_;
-  const WorldObject& object_;
-  const Chart& chart_;
-  const scene::Mesh& mesh_;
-  const scene::Material& material_;
-  const EmissionTexture* texture_ = nullptr;
-};
-
-// The cells of one texel each within the samples of a tile.
-void addCells(std::vector<Cell>& cells, const Source& source, const ChartSampler& sampler,
-              const Samples& samples, const Block& tile) {
-  for (std::size_t i = 0; i < samples.size();) {
-    const std::uint16_t texel = samples.texels[i];
-    vec3 intensity(0.f), position(0.f), normal(0.f);
-    float weight = 0.f;
-    const ChartSampler::Steps steps = sampler.stepsOn(samples.triangles[i]);
-    for (; i < samples.size() && samples.texels[i] == texel; ++i) {
-      const ChartSampler::Steps s = sampler.stepsOn(samples.triangles[i]);
-      const float area = samples.areas[i] * glm::length(glm::cross(s.x, s.y));
-      const vec3 part = area * source.radiance(samples.triangles[i], samples.barycentrics[i]);
-      const float w = brightness(part);
-      intensity += part;
-      weight += w;
-      position += w * vec3(samples.x[i], samples.y[i], samples.z[i]);
-      normal += w * vec3(samples.nx[i], samples.ny[i], samples.nz[i]);
-    }
-    if (!(weight > 0.f) || !std::isfinite(weight)) continue;
-    Cell& cell = cells.emplace_back();
-    cell.emission = {
-        .intensity = intensity, .positionW = position / weight, .normalW = glm::normalize(normal)};
-    cell.texel = tile.corner + ivec2(texel % tile.size.x, texel / tile.size.x);
-    cell.alongU = steps.x;
-    cell.alongV = steps.y;
-  }
-}
-
-std::vector<Cell> cellsOf(const World& world, const Chart& chart,
-                          const std::map<std::uint32_t, EmissionTexture>& textures) {
-  const Source source(world, chart, textures);
-  // First a single sample a texel: where the texture is black around them, no more are needed.
-  ChartSampler coarse(world, chart, 1), fine(world, chart, kSamples);
-  Samples samples;
-  std::vector<Cell> cells;
-  for (int y = 0; y < chart.size.y; y += kTile)
-    for (int x = 0; x < chart.size.x; x += kTile) {
-      const Block tile{.corner = {x, y}, .size = glm::min(chart.size - ivec2(x, y), ivec2(kTile))};
-      coarse.sample(tile, samples);
-      if (samples.size() == 0 || !source.shines(samples)) continue;
-      fine.sample(tile, samples);
-      addCells(cells, source, fine, samples, tile);
-    }
-  return cells;
-}
-
-// The same on the other side of the surface.
-std::vector<Cell> backsOf(std::vector<Cell> cells) {
-  for (Cell& cell : cells) {
-    Emission& emission = cell.emission;
-    emission.positionW -= 2.f * liftAt(emission.positionW) * emission.normalW;
-    emission.normalW = -emission.normalW;
-  }
-  return cells;
 }
 
 // Bits of x and y in turn.
@@ -181,8 +61,11 @@ class Builder {
       node.reach = reach_;
       node.alongU = cell.alongU;
       node.alongV = cell.alongV;
-      node.size = glm::length(cell.alongU) + glm::length(cell.alongV);
-      node.boxW.grow(cell.emission.positionW);
+      node.size =
+          std::max(glm::length(cell.alongU + cell.alongV), glm::length(cell.alongU - cell.alongV));
+      for (const vec2 side : {vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(1, 1)})
+        node.boxW.grow(cell.emission.positionW +
+                       0.5f * (side.x * cell.alongU + side.y * cell.alongV));
       return;
     }
     // Where the highest bit changes, which is where a square is halved.
@@ -213,10 +96,7 @@ class Builder {
     const float wa = brightness(a.emission.intensity), wb = brightness(b.emission.intensity);
     node.emission.intensity = a.emission.intensity + b.emission.intensity;
     node.emission.positionW = (a.emission.positionW * wa + b.emission.positionW * wb) / (wa + wb);
-    // A cell's points reach beyond its middle.
-    node.size =
-        node.boxW.diagonal() + std::max(a.isCell() ? a.size : 0.f, b.isCell() ? b.size : 0.f);
-    node.size = std::max({node.size, a.size, b.size});
+    node.size = node.boxW.diagonal();
     const vec3 axis = a.axis * wa + b.axis * wb;
     const float length = glm::length(axis);
     node.axis = length > 0.f ? axis / length : vec3(0.f);

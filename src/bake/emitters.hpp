@@ -18,7 +18,7 @@ struct Emission {
 };
 
 struct EmitterNode {
-  Aabb boxW;  // of the cells' points
+  Aabb boxW;  // around the cells
   Emission emission;
   float size = 0.f;               // m, a bound of the distance between two points below
   vec3 axis{0.f};                 // all normals below are within the angle of this cosine

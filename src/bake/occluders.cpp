@@ -41,9 +41,11 @@ bool Shaft::mayMeet(const std::array<vec3, 3>& triangle) const {
 Shaft shaftFrom(vec3 centreW, float radius, const Samples& block) {
   CHECK(block.planar);
   Shaft shaft;
-  const float rounding = roundingAt(block.boundsW);
+  Aabb all = block.boundsW;
+  all.grow(centreW);
+  const float rounding = roundingAt(all);  // planes lead from the block to the light
   // What lies in the surface's own plane is below the samples, which are clear of it.
-  shaft.add(planeThrough(block.corners[0], block.axis, rounding));
+  shaft.add(planeThrough(block.corners[0], block.axis, roundingAt(block.boundsW)));
   const vec3 middle =
       0.25f * (block.corners[0] + block.corners[1] + block.corners[2] + block.corners[3]);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -67,8 +69,8 @@ Shaft shaftFrom(vec3 centreW, float radius, const Samples& block) {
 Shaft shaftAlong(vec3 toLightW, float sine, float length, const Samples& block) {
   CHECK(block.planar);
   Shaft shaft;
-  const float rounding = roundingAt(block.boundsW);
-  shaft.add(planeThrough(block.corners[0], block.axis, rounding));
+  shaft.add(planeThrough(block.corners[0], block.axis, roundingAt(block.boundsW)));
+  const float rounding = roundingAt(block.boundsW) + length * 0x1p-20f;
   const vec3 middle =
       0.25f * (block.corners[0] + block.corners[1] + block.corners[2] + block.corners[3]);
   for (std::size_t i = 0; i < 4; ++i) {

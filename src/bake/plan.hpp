@@ -22,6 +22,7 @@ enum class Engine { Embree, Octree };
 // How finely light is sampled.
 struct Sampling {
   int positions = 1;          // along each side of a texel
+  int finePositions = 0;      // the same of texels at the edges of shadows; 0: no others
   int lightSamples = 4;       // points on a light with a size, see LighterSettings
   float emitterSize = 0.25f;  // of an emitting surface for one ray / its distance
 };

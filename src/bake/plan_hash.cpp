@@ -7,7 +7,7 @@ namespace lucerna::bake {
 namespace {
 
 // What a change of this program does to the light that is stored raises it.
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 void add(ByteWriter& w, const scene::TextureSlot& slot) {
   w(slot.texture);
@@ -46,6 +46,7 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.pack.side);
   w(s.pack.gap);
   w(s.sampling.positions);
+  w(s.sampling.finePositions);
   w(s.sampling.lightSamples);
   w(s.sampling.emitterSize);
   w(s.reach);

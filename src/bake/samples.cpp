@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bake/clip_polygon.hpp"
 #include "bake/triangle.hpp"
 #include "core/check.hpp"
 
@@ -47,46 +48,6 @@ Range texelsBelow(const std::array<vec2, 3>& corners, const Block& block) {
           glm::clamp(ivec2(glm::floor(max)) + 1 - block.corner, ivec2(0), block.size)};
 }
 
-// A convex polygon that is cut by half-planes (Sutherland and Hodgman, "Reentrant Polygon
-// Clipping", 1974).
-class Polygon {
- public:
-  explicit Polygon(const std::array<vec2, 3>& corners) {
-    for (const vec2 corner : corners) points_[count_++] = corner;
-  }
-  // Keeps what has sign * (p[axis] - bound) >= 0.
-  void cut(int axis, double bound, double sign) {
-    std::array<dvec2, kMost> kept;
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      const dvec2 p = points_[i], q = points_[(i + 1) % count_];
-      const double dp = sign * (p[axis] - bound), dq = sign * (q[axis] - bound);
-      if (dp >= 0.) kept[n++] = p;
-      if ((dp < 0. && dq > 0.) || (dp > 0. && dq < 0.)) kept[n++] = p + (q - p) * (dp / (dp - dq));
-    }
-    points_ = kept;
-    count_ = n;
-  }
-  // area: positive whatever the orientation; its centroid, where the area is not 0.
-  double area(dvec2& centroid) const {
-    double twice = 0.;
-    dvec2 moment(0.);
-    for (std::size_t i = 1; i + 1 < count_; ++i) {
-      const dvec2 a = points_[0], b = points_[i], c = points_[i + 1];
-      const double part = cross(b - a, c - a);
-      twice += part;
-      moment += part * (a + b + c) / 3.;
-    }
-    if (twice != 0.) centroid = moment / twice;
-    return std::abs(0.5 * twice);
-  }
-
- private:
-  static constexpr std::size_t kMost = 8;  // a triangle cut four times has seven corners at most
-  std::array<dvec2, kMost> points_;
-  std::size_t count_ = 0;
-};
-
 void clear(Samples& samples) {
   for (auto* list : {&samples.x, &samples.y, &samples.z, &samples.nx, &samples.ny, &samples.nz})
     list->clear();
@@ -119,26 +80,27 @@ std::array<vec3, 4> rectangleAround(const Samples& s, vec3 along) {
 
 // along: where the chart's x leads in the world, if it is planar.
 void findBounds(Samples& s, vec3 along) {
-  vec3 sum(0.f);
+  glm::dvec3 sum(0.);  // in double precision: many normals of one plane must give that normal
   for (std::size_t i = 0; i < s.size(); ++i) {
     s.boundsW.grow({s.x[i], s.y[i], s.z[i]});
-    sum += vec3(s.nx[i], s.ny[i], s.nz[i]);
+    sum += glm::dvec3(s.nx[i], s.ny[i], s.nz[i]);
   }
-  const float length = glm::length(sum);
-  if (!(length > 0.f)) return;
-  s.axis = sum / length;
+  const double length = glm::length(sum);
+  if (!(length > 0.)) return;
+  const glm::dvec3 axis = sum / length;
+  s.axis = vec3(axis);
   s.cosine = 1.f;
-  float low = std::numeric_limits<float>::infinity(), high = -low;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::size_t i = 0; i < s.size(); ++i) {
     s.cosine = std::min(s.cosine, glm::dot(s.axis, vec3(s.nx[i], s.ny[i], s.nz[i])));
-    const float height = glm::dot(s.axis, vec3(s.x[i], s.y[i], s.z[i]));
+    const double height = glm::dot(axis, glm::dvec3(s.x[i], s.y[i], s.z[i]));
     low = std::min(low, height);
     high = std::max(high, height);
   }
   const vec3 size = glm::max(glm::abs(s.boundsW.min), glm::abs(s.boundsW.max));
   const float rounding = std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-20f;
   const vec3 square = along - s.axis * glm::dot(s.axis, along);
-  s.planar = s.cosine > 1.f - 0x1p-20f && high - low <= rounding &&
+  s.planar = s.cosine > 1.f - 0x1p-20f && high - low <= double{rounding} &&
              glm::dot(square, square) > 0.5f * glm::dot(along, along);
   if (s.planar) s.corners = rectangleAround(s, along);
 }
@@ -183,6 +145,16 @@ ChartSampler::ChartSampler(const World& world, const Chart& chart, int side)
   }
 }
 
+// Places in a texel: one in each square of a grid, no two in a row or a column of one as fine as
+// there are places, so that edges of shadows along the chart's axes fall between them one by one
+// (Chiu, Shirley and Wang, "Multi-Jittered Sampling", Graphics Gems IV, 1994, without jitter).
+dvec2 ChartSampler::place(std::size_t index) const {
+  const double side = side_;
+  const dvec2 square(static_cast<double>(index % static_cast<std::size_t>(side_)),
+                     static_cast<double>(index / static_cast<std::size_t>(side_)));
+  return (square + dvec2(square.y + 0.5, side - square.x - 0.5) / side) / side;
+}
+
 // Of several triangles at a point the first counts.
 void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
   const auto& corners = chart_.corners[triangle];
@@ -192,13 +164,11 @@ void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
   for (int y = range.first.y; y < range.end.y; ++y)
     for (int x = range.first.x; x < range.end.x; ++x) {
       const auto texel = static_cast<std::size_t>(y * block.size.x + x);
+      if (left_[texel]) continue;
       for (std::size_t i = 0; i < perTexel(); ++i) {
         Found& found = found_[texel * perTexel() + i];
         if (found.triangle != Found::kNothing) continue;
-        const ivec2 step(static_cast<int>(i) % side_, static_cast<int>(i) / side_);
-        const dvec2 p =
-            dvec2(block.corner + ivec2(x, y)) + (dvec2(step) + 0.5) / static_cast<double>(side_);
-        const dvec2 weights = barycentric.at(p);
+        const dvec2 weights = barycentric.at(dvec2(block.corner + ivec2(x, y)) + place(i));
         if (!isInside(weights)) continue;
         found = {.triangle = triangle, .barycentric = vec2(weights)};
         inside_[texel] = true;
@@ -216,20 +186,16 @@ void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
   for (int y = range.first.y; y < range.end.y; ++y)
     for (int x = range.first.x; x < range.end.x; ++x) {
       const auto texel = static_cast<std::size_t>(y * block.size.x + x);
-      if (inside_[texel]) continue;
+      if (inside_[texel] || left_[texel]) continue;
       const dvec2 corner(block.corner + ivec2(x, y));
-      Polygon polygon(corners);
-      for (int axis = 0; axis < 2; ++axis) {
-        polygon.cut(axis, corner[axis], 1.);
-        polygon.cut(axis, corner[axis] + 1., -1.);
-      }
-      dvec2 centroid(0.);
-      const double area = polygon.area(centroid);
+      ClipPolygon polygon(corners);
+      polygon.cutTo(corner, corner + 1.);
+      const PolygonMoments inside = polygon.moments();
       Found& found = found_[texel * perTexel()];
-      if (area > kLeastArea && area > found.area)
+      if (inside.area > kLeastArea && inside.area > found.area)
         found = {.triangle = triangle,
-                 .barycentric = vec2(barycentric.at(centroid)),
-                 .area = static_cast<float>(area)};
+                 .barycentric = vec2(barycentric.at(inside.centroid)),
+                 .area = static_cast<float>(inside.area)};
     }
 }
 
@@ -240,8 +206,7 @@ void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& sample
   const auto at = [&](const std::array<vec3, 3>& v) {
     return v[0] * first + v[1] * second + v[2] * third;
   };
-  vec3 p = at(surface.positionsW);
-  p += surface.flatW * liftAt(p);
+  const vec3 p = at(surface.positionsW);
   vec3 normal = at(surface.normalsW);
   const float length = glm::length(normal);
   normal = length > 1e-3f ? normal / length : surface.flatW;
@@ -283,17 +248,35 @@ void ChartSampler::emitTile(const Block& block, ivec2 corner, Samples& samples) 
       for (int ty = y; ty < std::min(y + kPacketTile, end.y); ++ty)
         for (int tx = x; tx < std::min(x + kPacketTile, end.x); ++tx)
           emitTexel(block, {tx, ty}, samples);
-  for (std::size_t i = tile.first; i < samples.size(); ++i)
-    tile.boundsW.grow({samples.x[i], samples.y[i], samples.z[i]});
   tile.count = static_cast<std::uint32_t>(samples.size()) - tile.first;
   if (tile.count > 0) samples.tiles.push_back(tile);
 }
 
-void ChartSampler::sample(const Block& block, Samples& samples) {
+// As much for the whole block, so that what is flat stays so.
+void ChartSampler::lift(Samples& samples) const {
+  Aabb box;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    box.grow({samples.x[i], samples.y[i], samples.z[i]});
+  const float by = samples.size() > 0 ? std::max(liftAt(box.min), liftAt(box.max)) : 0.f;
+  for (Samples::Tile& tile : samples.tiles)
+    for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+      const vec3 p = vec3(samples.x[i], samples.y[i], samples.z[i]) +
+                     by * surfaces_[samples.triangles[i]].flatW;
+      samples.x[i] = p.x;
+      samples.y[i] = p.y;
+      samples.z[i] = p.z;
+      tile.boundsW.grow(p);
+    }
+}
+
+void ChartSampler::sample(const Block& block, Samples& samples, const std::vector<bool>& only) {
   clear(samples);
   const auto texels = static_cast<std::size_t>(block.size.x) * block.size.y;
   found_.assign(texels * perTexel(), {});
   inside_.assign(texels, false);
+  left_ = only;
+  left_.resize(texels, true);
+  left_.flip();
   const ivec2 place = block.corner / kBlockSide;
   const auto& triangles = touching_[static_cast<std::size_t>(place.y * blocksAcross_ + place.x)];
   for (const std::uint32_t triangle : triangles) findInside(block, triangle);
@@ -302,6 +285,7 @@ void ChartSampler::sample(const Block& block, Samples& samples) {
     for (int x = 0; x < block.size.x; x += kTile) emitTile(block, {x, y}, samples);
   samples.texelCount = texels;
   samples.texelSize = 1.f / chart_.density;
+  lift(samples);
   findBounds(samples, samples.triangles.empty() ? vec3(0.f) : stepsOn(samples.triangles[0]).x);
 }
 

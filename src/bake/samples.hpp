@@ -60,10 +60,11 @@ class ChartSampler {
   // side: samples along each side of a texel. The chart outlives it.
   ChartSampler(const World& world, const Chart& chart, int side);
 
-  // A texel's samples are those of a regular grid that lie in one of the chart's triangles. Where
+  // A texel's samples are those of an even pattern that lie in one of the chart's triangles. Where
   // none does and yet the chart touches it: the middle of what it covers of the texel.
-  // The block may be a part of one that addBlocks() gives.
-  void sample(const Block& block, Samples& samples);
+  // The block may be a part of one that addBlocks() gives. only: of its texels, row by row, those
+  // that are asked for; empty: all.
+  void sample(const Block& block, Samples& samples, const std::vector<bool>& only = {});
 
   // Where steps of a texel along the chart's x and y lead on a triangle of its list, m in the
   // world.
@@ -86,11 +87,13 @@ class ChartSampler {
     vec3 flatW{0.f};                           // its own normal, unit
   };
   std::size_t perTexel() const { return static_cast<std::size_t>(side_) * side_; }
+  glm::dvec2 place(std::size_t index) const;
   void findInside(const Block& block, std::uint32_t triangle);
   void findBorder(const Block& block, std::uint32_t triangle);
   void emitTile(const Block& block, ivec2 corner, Samples& samples) const;
   void emitTexel(const Block& block, ivec2 texel, Samples& samples) const;
   void emit(const Found& found, std::uint16_t texel, Samples& samples) const;
+  void lift(Samples& samples) const;
 
   const Chart& chart_;
   int side_;
@@ -99,6 +102,7 @@ class ChartSampler {
   std::vector<std::vector<std::uint32_t>> touching_;  // of each block: places in the chart's list
   std::vector<Found> found_;  // of the block under way, perTexel() for each texel
   std::vector<bool> inside_;  // of its texels: one of its samples lies in a triangle
+  std::vector<bool> left_;    // of its texels: not asked for
 };
 
 }  // namespace lucerna::bake

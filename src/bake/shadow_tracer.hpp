@@ -15,6 +15,11 @@ namespace lucerna::bake {
 // What lies within this share of the way from the light is not in the way: a lamp's own surface.
 inline constexpr float kClearOfLight = 0x1p-12f;  // as the reference
 
+// What lies within this share of the way from the sample is not, either: so far may a ray that
+// starts far away be beside it, which is more than samples near the origin are clear of their
+// surface.
+inline constexpr float kClearOfSample = 0x1p-19f;
+
 // Rays from a light to samples, in world space (m). Neighbours in the list should be neighbours in
 // the scene.
 struct ShadowRays {

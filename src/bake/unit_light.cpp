@@ -39,6 +39,13 @@ Emitters emittersOf(const Plan& plan) {
                       plan.settings.reach);
 }
 
+// coarseness: of emitting surfaces, a factor of what is set.
+LighterSettings settingsOf(const Plan& plan, const LightScene& scene, float coarseness) {
+  return {.lightSamples = plan.settings.sampling.lightSamples,
+          .emitterSize = coarseness * plan.settings.sampling.emitterSize,
+          .sceneDiagonal = scene.diagonal};
+}
+
 // The same members in the same order, written or read.
 template <typename Stream, typename L>
 void fields(Stream& stream, L& light) {
@@ -90,32 +97,72 @@ LightScene::LightScene(const Plan& plan)
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
-      lighter_(*scene.tracer, scene.occluders, scene.emitters,
-               {.lightSamples = plan.settings.sampling.lightSamples,
-                .emitterSize = plan.settings.sampling.emitterSize,
-                .sceneDiagonal = scene.diagonal},
+      lighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 1.f),
                *plan.world.scene),
+      fineLighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 0.7f),
+                   *plan.world.scene),
       hidden_(scene.rays, scene.occluders, scene.chartOf) {}
 
-BlockLight UnitLighter::lightBlock(const Block& block) {
+LightCounters UnitLighter::counters() const {
+  LightCounters sum = lighter_.counters;
+  sum.add(fineLighter_.counters);
+  return sum;
+}
+
+const Samples& UnitLighter::sample(const Block& block) {
   const auto start = Clock::now();
-  if (chart_ != block.chart) {
-    sampler_.emplace(plan_.world, plan_.charts.charts[block.chart],
-                     plan_.settings.sampling.positions);
-    chart_ = block.chart;
+  if (block_.chart != block.chart) {
+    const Chart& chart = plan_.charts.charts[block.chart];
+    const Sampling& sampling = plan_.settings.sampling;
+    sampler_.emplace(plan_.world, chart, sampling.positions);
+    if (sampling.finePositions > 0)
+      fineSampler_.emplace(plan_.world, chart, sampling.finePositions);
   }
+  block_ = block;
   sampler_->sample(block, samples_);
   hidden_.remove(samples_, block.chart);
   samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+  return samples_;
+}
 
+void UnitLighter::lightGroup(std::uint32_t group, std::span<vec3> texels) {
+  std::ranges::fill(texels, vec3(0.f));
+  addLight(plan_.groups[group].lights, false, texels);
+  if (group == 0) addLight({}, true, texels);
+}
+
+// Texels that shadows' edges cross are lit once more, from more places.
+void UnitLighter::addLight(std::span<const scene::PlacedLight> lights, bool emitters,
+                           std::span<vec3> texels) {
+  constexpr float kUneven = 0.1f;
+  if (!lighter_.light(samples_, lights, emitters, part_)) return;
+  if (fineSampler_) {
+    const std::vector<bool> uneven = lighter_.unevenTexels(samples_, kUneven, texels.size());
+    if (std::ranges::find(uneven, true) != uneven.end()) refine(lights, emitters, uneven);
+  }
+  for (std::size_t i = 0; i < texels.size(); ++i) texels[i] += part_[i];
+}
+
+void UnitLighter::refine(std::span<const scene::PlacedLight> lights, bool emitters,
+                         const std::vector<bool>& which) {
+  const auto start = Clock::now();
+  fineSampler_->sample(block_, fineSamples_, which);
+  hidden_.remove(fineSamples_, block_.chart);
+  samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+  if (!fineLighter_.light(fineSamples_, lights, emitters, finePart_)) return;
+  for (const std::uint16_t texel : fineSamples_.texels) part_[texel] = finePart_[texel];
+}
+
+BlockLight UnitLighter::lightBlock(const Block& block) {
+  sample(block);
   const auto count = static_cast<std::size_t>(block.size.x) * block.size.y;
   BlockLight result;
   result.touched.assign((count + 7) / 8, 0);
   for (const std::uint16_t texel : samples_.texels)
     result.touched[texel / 8] |= static_cast<std::uint8_t>(1u << (texel % 8));
   for (std::uint32_t g = 0; g < plan_.groups.size(); ++g) {
-    texels_.assign(count, vec3(0.f));
-    lighter_.light(samples_, plan_.groups[g].lights, g == 0, texels_);
+    texels_.resize(count);
+    lightGroup(g, texels_);
     if (std::ranges::all_of(texels_, [](vec3 v) { return v == vec3(0.f); })) continue;
     GroupLight& group = result.groups.emplace_back(GroupLight{.group = g, .rgb = {}});
     for (std::size_t i = 0; i < count; ++i)

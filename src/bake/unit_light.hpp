@@ -45,19 +45,26 @@ class UnitLighter {
  public:
   UnitLighter(const Plan& plan, const LightScene& scene);
   UnitLight light(const Unit& unit);
-  const LightCounters& counters() const { return lighter_.counters; }
+  // A block's samples, and then a group's light on its texels, row by row.
+  const Samples& sample(const Block& block);
+  void lightGroup(std::uint32_t group, std::span<vec3> texels);
+  LightCounters counters() const;
   double samplingSeconds = 0.;
 
  private:
   BlockLight lightBlock(const Block& block);
+  void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
+
+  void refine(std::span<const scene::PlacedLight> lights, bool emitters,
+              const std::vector<bool>& which);
 
   const Plan& plan_;
-  BlockLighter lighter_;
+  BlockLighter lighter_, fineLighter_;
   HiddenSamples hidden_;
-  std::optional<ChartSampler> sampler_;
-  std::uint32_t chart_ = 0xffffffffu;  // of sampler_
-  Samples samples_;
-  std::vector<vec3> texels_;
+  std::optional<ChartSampler> sampler_, fineSampler_;
+  Block block_{.chart = 0xffffffffu};  // whose samples are there
+  Samples samples_, fineSamples_;
+  std::vector<vec3> texels_, part_, finePart_;
 };
 
 }  // namespace lucerna::bake
