@@ -41,13 +41,6 @@ Emitters emittersOf(const Plan& plan) {
                       plan.settings.reach);
 }
 
-// coarseness: of emitting surfaces, a factor of what is set.
-LighterSettings settingsOf(const Plan& plan, const LightScene& scene, float coarseness) {
-  return {.lightSamples = plan.settings.sampling.lightSamples,
-          .emitterSize = coarseness * plan.settings.sampling.emitterSize,
-          .sceneDiagonal = scene.diagonal};
-}
-
 // The same members in the same order, written or read.
 template <typename Stream, typename L>
 void fields(Stream& stream, L& light) {
@@ -97,16 +90,11 @@ LightScene::LightScene(const Plan& plan)
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
-      lighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 1.f),
-               *plan.world.scene),
-      fineLighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 0.7f),
-                   *plan.world.scene) {}
-
-LightCounters UnitLighter::counters() const {
-  LightCounters sum = lighter_.counters;
-  sum.add(fineLighter_.counters);
-  return sum;
-}
+      lighter_(*scene.tracer, scene.occluders, scene.emitters,
+               {.lightSamples = plan.settings.sampling.lightSamples,
+                .emitterSize = plan.settings.sampling.emitterSize,
+                .sceneDiagonal = scene.diagonal},
+               *plan.world.scene) {}
 
 const Samples& UnitLighter::sample(const Block& block) {
   const auto start = Clock::now();
@@ -143,7 +131,7 @@ void UnitLighter::addLight(std::span<const scene::PlacedLight> lights, bool emit
     fineSampler_->sample(block_, fineSamples_, uneven);
     samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
     finePart_.assign(texels.size(), vec3(0.f));
-    fineLighter_.light(fineSamples_, lights, emitters, finePart_);
+    lighter_.light(fineSamples_, lights, emitters, finePart_);
     for (std::size_t i = 0; i < texels.size(); ++i)
       if (uneven[i]) part_[i] = finePart_[i];
   }

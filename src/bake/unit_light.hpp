@@ -45,7 +45,7 @@ class UnitLighter {
   // A block's samples, and then a group's light on its texels, row by row.
   const Samples& sample(const Block& block);
   void lightGroup(std::uint32_t group, std::span<vec3> texels);
-  LightCounters counters() const;
+  const LightCounters& counters() const { return lighter_.counters; }
   double samplingSeconds = 0.;
 
  private:
@@ -53,7 +53,7 @@ class UnitLighter {
   void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
 
   const Plan& plan_;
-  BlockLighter lighter_, fineLighter_;
+  BlockLighter lighter_;
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
   Samples samples_, fineSamples_;
