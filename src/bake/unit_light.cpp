@@ -39,13 +39,6 @@ Emitters emittersOf(const Plan& plan) {
                       plan.settings.reach);
 }
 
-// coarseness: of emitting surfaces, a factor of what is set.
-LighterSettings settingsOf(const Plan& plan, const LightScene& scene, float coarseness) {
-  return {.lightSamples = plan.settings.sampling.lightSamples,
-          .emitterSize = coarseness * plan.settings.sampling.emitterSize,
-          .sceneDiagonal = scene.diagonal};
-}
-
 // The same members in the same order, written or read.
 template <typename Stream, typename L>
 void fields(Stream& stream, L& light) {
@@ -97,17 +90,12 @@ LightScene::LightScene(const Plan& plan)
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
-      lighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 1.f),
+      lighter_(*scene.tracer, scene.occluders, scene.emitters,
+               {.lightSamples = plan.settings.sampling.lightSamples,
+                .emitterSize = plan.settings.sampling.emitterSize,
+                .sceneDiagonal = scene.diagonal},
                *plan.world.scene),
-      fineLighter_(*scene.tracer, scene.occluders, scene.emitters, settingsOf(plan, scene, 0.7f),
-                   *plan.world.scene),
       hidden_(scene.rays, scene.occluders, scene.chartOf) {}
-
-LightCounters UnitLighter::counters() const {
-  LightCounters sum = lighter_.counters;
-  sum.add(fineLighter_.counters);
-  return sum;
-}
 
 const Samples& UnitLighter::sample(const Block& block) {
   const auto start = Clock::now();
@@ -149,7 +137,7 @@ void UnitLighter::refine(std::span<const scene::PlacedLight> lights, bool emitte
   fineSampler_->sample(block_, fineSamples_, which);
   hidden_.remove(fineSamples_, block_.chart);
   samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
-  if (!fineLighter_.light(fineSamples_, lights, emitters, finePart_)) return;
+  if (!lighter_.light(fineSamples_, lights, emitters, finePart_)) return;
   for (const std::uint16_t texel : fineSamples_.texels) part_[texel] = finePart_[texel];
 }
 

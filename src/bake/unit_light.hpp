@@ -48,18 +48,17 @@ class UnitLighter {
   // A block's samples, and then a group's light on its texels, row by row.
   const Samples& sample(const Block& block);
   void lightGroup(std::uint32_t group, std::span<vec3> texels);
-  LightCounters counters() const;
+  const LightCounters& counters() const { return lighter_.counters; }
   double samplingSeconds = 0.;
 
  private:
   BlockLight lightBlock(const Block& block);
   void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
-
   void refine(std::span<const scene::PlacedLight> lights, bool emitters,
               const std::vector<bool>& which);
 
   const Plan& plan_;
-  BlockLighter lighter_, fineLighter_;
+  BlockLighter lighter_;
   HiddenSamples hidden_;
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
