@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""The commands of docs/user/bake-farm.md, run as they stand there on a scene of the tests: a shard is killed and goes on,
-and the lightmap is, byte for byte, what one process bakes. Slurm runs as a cluster of this machine alone.
+"""The commands of docs/user/bake-farm.md, run as they stand there on a scene of the tests: a shard is killed and goes
+on, and the lightmap is, byte for byte, what one process bakes. Slurm runs as a cluster of this machine alone.
 
 Usage: farm_test.py PROGRAM [unittest arguments]
 """
 import contextlib
 import hashlib
+import json
 import os
 import pathlib
 import pwd
@@ -22,6 +23,7 @@ import unittest
 PROGRAM = ""
 SCENE = "builtin:cornell"
 FLAGS = "--density 400 --size 1024 --preset standard"  # a second or two of light
+SMALL = "--density 40 --size 128 --preset preview"
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "user" / "bake-farm.md").read_text()
 LIMIT = 120  # seconds that anything may take
@@ -75,22 +77,36 @@ def free_ports(count):
         return [each.getsockname()[1] for each in sockets]
 
 
+def hashes(root):
+    """Of every file in it, by name."""
+    return {str(path.relative_to(root)): hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(root.rglob("*")) if path.is_file()}
+
+
 class FarmTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory(prefix="lucerna-farm-") as folder:
+            plain = pathlib.Path(folder) / "plain"
+            subprocess.run([PROGRAM, "bake", SCENE, "-o", plain, *FLAGS.split()], check=True, timeout=LIMIT,
+                           stderr=subprocess.DEVNULL)
+            cls.plain = hashes(plain)
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="lucerna-farm-")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
         (self.folder / "bin").mkdir()
         (self.folder / "bin" / "lucerna").symlink_to(PROGRAM)
-        self.environment = {**os.environ, "PATH": f"{self.folder / 'bin'}:/usr/sbin:{os.environ['PATH']}"}
+        self.environment = {**os.environ, "PATH": f"{self.folder / 'bin'}:{os.environ['PATH']}:/usr/sbin"}
 
     def need(self, *programs):
         for program in programs:
             if not shutil.which(program, path=self.environment["PATH"]):
                 self.skipTest(f"{program} is not installed")
 
-    def start(self, script):
-        script = script.replace("street.gltf", f"{SCENE} {FLAGS}")
+    def start(self, script, flags=FLAGS):
+        script = script.replace("street.gltf", f"{SCENE} {flags}")
         return subprocess.Popen(["bash", "-euo", "pipefail", "-c", script], cwd=self.folder, env=self.environment,
                                 stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -99,15 +115,9 @@ class FarmTest(unittest.TestCase):
         self.assertEqual(process.returncode, 0, output + said)
         return output
 
-    def hashes(self, folder):
-        root = self.folder / folder
-        return {str(path.relative_to(root)): hashlib.sha256(path.read_bytes()).hexdigest()
-                for path in sorted(root.rglob("*")) if path.is_file()}
-
     def is_as_plain(self, folder):
-        self.ok(self.start("lucerna bake street.gltf -o plain"))
-        self.assertIn("manifest.json", self.hashes("plain"))
-        self.assertEqual(self.hashes(folder), self.hashes("plain"))
+        self.assertIn("manifest.json", self.plain)
+        self.assertEqual(hashes(self.folder / folder), self.plain)
 
     def process(self, shard):
         """The number of the process that bakes it, if there is one."""
@@ -129,6 +139,8 @@ class FarmTest(unittest.TestCase):
 
     def test_gnu_parallel(self):
         self.need("parallel")
+        if "GNU" not in self.ok(self.start("parallel --version")):
+            self.skipTest("parallel is another program than GNU parallel")
         bake, merge = commands("parallel", "merge street.bake").split("\n")
         running = self.start(bake)
         killed = self.kill("3/8")
@@ -144,12 +156,23 @@ class FarmTest(unittest.TestCase):
 
     def test_merge_says_what_is_missing_as_on_the_page(self):
         for shard in (1, 2, 4, 5, 6, 7, 8):
-            self.ok(self.start(f"lucerna bake street.gltf -o street.bake --shard {shard}/8"))
+            self.ok(self.start(f"lucerna bake street.gltf -o street.bake --shard {shard}/8", SMALL))
         merge = self.start("lucerna lightmap merge street.bake")
         said = merge.communicate(timeout=LIMIT)[1]
         self.assertEqual(merge.returncode, 1, said)
         numbers = re.compile(r"\d+ of \d+ units")
         self.assertEqual(numbers.sub("", said.strip()), numbers.sub("", commands("error:", "--resume")))
+
+    def test_another_kind_of_processor_is_refused(self):
+        self.ok(self.start("lucerna bake street.gltf -o street.bake --shard 1/2", SMALL))
+        order = self.folder / "street.bake" / "work" / "bake.json"
+        document = json.loads(order.read_text())
+        order.write_text(json.dumps({**document, "processor": "sse9"}))
+        for command in ("bake street.gltf -o street.bake --shard 2/2", "lightmap merge street.bake"):
+            running = self.start(f"lucerna {command}", SMALL)
+            said = running.communicate(timeout=LIMIT)[1]
+            self.assertEqual(running.returncode, 2, said)
+            self.assertIn(f"of processors with sse9, this one has {document['processor']}", said)
 
     # Slurm
 
@@ -198,26 +221,36 @@ class FarmTest(unittest.TestCase):
         return subprocess.run(command, env=self.environment, capture_output=True, text=True, timeout=LIMIT,
                               check=True).stdout
 
-    def said(self):
-        return "".join(path.read_text() for path in sorted(self.folder.glob("*.txt")) + [
-            *self.folder.glob("slurm-*.out")])
-
-    def submit(self):
+    def submit(self, flags):
         """As on the page, and gives the number of the array."""
-        lines = commands("export SCENE", 'merge $BAKE"')
-        lines = re.sub('street.gltf|FLAGS=".*"', lambda part: SCENE if part[0] == "street.gltf" else
-                       f'FLAGS="{FLAGS}"', lines).replace("examples/", f"{ROOT}/examples/")
+        lines = commands("export SCENE", 'merge $BAKE"').replace("examples/", f"{ROOT}/examples/")
+        lines = re.sub('FLAGS=".*"', f'FLAGS="{flags}"', lines.replace("street.gltf", SCENE))
         return int(self.ok(self.start(lines + "\necho $job")).split()[-1])
+
+    def wait(self):
+        """Until no job is left."""
+        self.assertTrue(within(LIMIT, lambda: not self.slurm("squeue", "-h"), 0.1),
+                        self.slurm("squeue") + "".join(path.read_text() for path in self.folder.glob("*.*t")))
+
+    def job(self, name):
+        return self.slurm("scontrol", "show", "job", str(name))
 
     def test_slurm(self):
         self.cluster()
-        self.addCleanup(lambda: subprocess.run(["scancel", "--me"], env=self.environment, check=False))
-        job = self.submit()
+        job = self.submit(FLAGS)
         self.kill("3/8")
-        self.assertTrue(within(LIMIT, lambda: not self.slurm("squeue", "-h"), 0.1), self.said())
+        self.wait()
         self.assertIn("exit code 137, queued again", (self.folder / f"bake-{job}_3.txt").read_text())
-        self.assertIn("Restarts=1", self.slurm("scontrol", "show", "job", f"{job}_3"))
+        self.assertIn("Restarts=1", self.job(f"{job}_3"))
+        self.assertIn("Restarts=0", self.job(f"{job}_4"))
         self.is_as_plain("street.bake")
+
+        faulty = self.submit("--density 0")  # is not tried again, and nothing is merged
+        self.wait()
+        shard, merge = self.job(f"{faulty}_1"), self.job(faulty + 1)
+        self.assertIn("Restarts=0", shard)
+        self.assertIn("ExitCode=2:0", shard)
+        self.assertIn("JobState=CANCELLED", merge)
 
 
 if __name__ == "__main__":
