@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bake/shadow_tracer.hpp"
 #include "bake/shards.hpp"
 #include "core/file.hpp"
 #include "core/json_value.hpp"
@@ -101,6 +102,13 @@ Status checkSame(const BakeOrder& there, const BakeOrder& here, const fs::path& 
         "-o: '{}' holds an unfinished bake of other settings: {}; give the same, or remove "
         "'{}' to start anew",
         folder.string(), found, work);
+  if (there.processor != here.processor)
+    return error(
+        ErrorKind::Usage,
+        "-o: '{}' holds an unfinished bake of processors with {}, this one has {}: its light "
+        "would differ in the last bits; go on where they are the same, or remove '{}' to "
+        "start anew",
+        folder.string(), there.processor, here.processor, work);
   if (there.plan == here.plan) return {};
   if (there.scene != here.scene)
     return error(ErrorKind::Usage,
@@ -124,7 +132,10 @@ std::string absoluteScene(const std::string& scene) {
 }  // namespace
 
 BakeOrder orderOf(const Plan& plan, const std::string& scene) {
-  return {.scene = absoluteScene(scene), .plan = plan.hash, .settings = plan.settings};
+  return {.scene = absoluteScene(scene),
+          .plan = plan.hash,
+          .processor = rayInstructionSet(),
+          .settings = plan.settings};
 }
 
 std::string settingsText(const BakeSettings& settings) {
@@ -135,6 +146,7 @@ std::string toJson(const BakeOrder& order) {
   const Json document{{"lucerna", kFormat},
                       {"scene", order.scene},
                       {"plan", fmt::format("{:016x}", order.plan)},
+                      {"processor", order.processor},
                       {"settings", settingsJson(order.settings)}};
   return document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
@@ -143,10 +155,12 @@ Result<BakeOrder> orderFrom(std::string_view text, const std::string& name) {
   LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
   const JsonValue root = document.root();
   BakeOrder order;
-  if (!root.object({"lucerna", "scene", "plan", "settings"})) return document.status().error();
+  if (!root.object({"lucerna", "scene", "plan", "processor", "settings"}))
+    return document.status().error();
   root.format(kFormat);
-  root.require({"lucerna", "scene", "plan", "settings"});
+  root.require({"lucerna", "scene", "plan", "processor", "settings"});
   root.read("scene", order.scene);
+  root.read("processor", order.processor);
   std::string plan;
   if (root.read("plan", plan)) {
     const char* end = plan.data() + plan.size();

@@ -12,6 +12,7 @@ namespace lucerna::bake {
 struct BakeOrder {
   std::string scene;       // as scene::loadScene() takes it; a file by its absolute path
   std::uint64_t plan = 0;  // Plan::hash
+  std::string processor;   // rayInstructionSet() of whoever bakes
   BakeSettings settings;
 };
 
@@ -27,8 +28,9 @@ Result<BakeOrder> orderFrom(std::string_view text, const std::string& name);
 // ErrorKind::Input: there is none, or it is damaged.
 Result<BakeOrder> readOrder(const std::filesystem::path& folder);
 
-// Writes it if there is none. ErrorKind::Usage if there is one of other settings, or of a scene
-// that was another then; it names what differs. The same scene may lie elsewhere.
+// Writes it if there is none. ErrorKind::Usage if there is one of other settings, of a scene that
+// was another then, or of another kind of processor; it names what differs. The same scene may lie
+// elsewhere.
 Status keepOrder(const std::filesystem::path& folder, const BakeOrder& order);
 
 }  // namespace lucerna::bake

@@ -12,7 +12,10 @@ namespace {
 using ::testing::HasSubstr;
 
 BakeOrder someOrder() {
-  BakeOrder order{.scene = "builtin:cornell", .plan = 0xfedcba9876543210ull, .settings = {}};
+  BakeOrder order{.scene = "builtin:cornell",
+                  .plan = 0xfedcba9876543210ull,
+                  .processor = "avx2",
+                  .settings = {}};
   order.settings.density = 0.1f;
   order.settings.reach = 12.7f;
   order.settings.faintest = 1.f / 3.f;
@@ -33,6 +36,7 @@ TEST(BakeOrder, ComesBackToTheBit) {
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(toJson(*back), toJson(order));
   EXPECT_EQ(back->plan, order.plan);
+  EXPECT_EQ(back->processor, order.processor);
   EXPECT_EQ(back->settings.density, order.settings.density);
   EXPECT_EQ(back->settings.faintest, order.settings.faintest);
   EXPECT_EQ(back->settings.reach, order.settings.reach);
@@ -40,8 +44,8 @@ TEST(BakeOrder, ComesBackToTheBit) {
   EXPECT_EQ(back->settings.sky, order.settings.sky);
   EXPECT_EQ(back->settings.encodings, order.settings.encodings);
   EXPECT_EQ(back->settings.groups, order.settings.groups);
-  const Result<BakeOrder> plain =
-      orderFrom(toJson({.scene = "a.obj", .plan = 0, .settings = {}}), "bake.json");
+  const Result<BakeOrder> plain = orderFrom(
+      toJson({.scene = "a.obj", .plan = 0, .processor = "avx2", .settings = {}}), "bake.json");
   ASSERT_TRUE(plain) << plain.error().message;
   EXPECT_EQ(plain->settings.reach, BakeSettings().reach);
 }
@@ -75,6 +79,10 @@ TEST(BakeOrder, WhatDiffersIsNamed) {
   BakeOrder changed = first;
   changed.plan = 1;
   EXPECT_THAT(keepOrder(folder.path(), changed).error().message, HasSubstr("before it changed"));
+  BakeOrder elsewhere = first;
+  elsewhere.processor = "sse4.2";
+  EXPECT_THAT(keepOrder(folder.path(), elsewhere).error().message,
+              HasSubstr("of processors with avx2, this one has sse4.2"));
 }
 
 TEST(Shards, ShareOutAllUnitsOnce) {
