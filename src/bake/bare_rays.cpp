@@ -58,8 +58,9 @@ RTCRay rayOf(const Packet& packet, std::size_t i) {
   return ray;
 }
 
-RTCScene sceneOf(RTCDevice device, const World& world) {
+RTCScene sceneOf(RTCDevice device, const World& world, bool robust) {
   RTCScene scene = rtcNewScene(device);
+  if (robust) rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
   auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
                                                                RTC_FORMAT_FLOAT3, sizeof(vec3),
@@ -78,19 +79,27 @@ RTCScene sceneOf(RTCDevice device, const World& world) {
 
 }  // namespace
 
+BareSettings likeTracer() {
+  return {.robust = true, .coherent = false, .instructionSet = rayInstructionSet()};
+}
+
 struct BareRays::State {
+  bool coherent = true;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<Packet> ready, used;  // Embree marks in `used` what is in the way
   std::size_t count = 0, blocked = 0;
 };
 
-BareRays::BareRays(const World& world, std::span<const ShadowRays> lists)
+BareRays::BareRays(const World& world, std::span<const ShadowRays> lists,
+                   const BareSettings& settings)
     : state_(std::make_unique<State>()) {
-  state_->device = rtcNewDevice(nullptr);
+  state_->coherent = settings.coherent;
+  const std::string& isa = settings.instructionSet;
+  state_->device = rtcNewDevice(isa.empty() ? nullptr : ("isa=" + isa).c_str());
   CHECK(state_->device, "Embree makes no device (error {})",
         static_cast<int>(rtcGetDeviceError(nullptr)));
-  state_->scene = sceneOf(state_->device, world);
+  state_->scene = sceneOf(state_->device, world, settings.robust);
   for (const ShadowRays& rays : lists) {
     state_->count += rays.size();
     for (std::size_t first = 0; first < rays.size(); first += kPacket)
@@ -115,7 +124,7 @@ double BareRays::packetSeconds() {
   state_->used = state_->ready;
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (state_->coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const auto start = Clock::now();
   for (Packet& packet : state_->used)
     rtcOccluded16(packet.valid.data(), state_->scene, &context, &packet.rays);

@@ -4,18 +4,28 @@
 
 #include <memory>
 #include <span>
+#include <string>
 
 #include "bake/shadow_tracer.hpp"
 
 namespace lucerna::bake {
 
+// How Embree is asked. By itself: as fast as it goes.
+struct BareSettings {
+  bool robust = false;         // RTC_SCENE_FLAG_ROBUST
+  bool coherent = true;        // RTC_INTERSECT_CONTEXT_FLAG_COHERENT, of packets
+  std::string instructionSet;  // "avx2", ...; "": the best there is
+};
+// As the tracer asks it.
+BareSettings likeTracer();
+
 // Rays that lie ready in Embree's own form, against a scene in which everything is opaque, so that
-// no filter is asked; with the instructions and the settings that are fastest: not robust, and
-// packets marked as coherent. One thread.
+// no filter is asked. One thread.
 class BareRays {
  public:
   // Each list by itself is cut into packets of sixteen.
-  BareRays(const World& world, std::span<const ShadowRays> lists);
+  BareRays(const World& world, std::span<const ShadowRays> lists,
+           const BareSettings& settings = {});
   ~BareRays();
   BareRays(const BareRays&) = delete;
   BareRays& operator=(const BareRays&) = delete;

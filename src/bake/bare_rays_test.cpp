@@ -37,13 +37,15 @@ TEST(BareRays, BothWaysFindWhatTheTracerFinds) {
   }
   ASSERT_GT(blocked, 5u);
   ASSERT_LT(blocked, count);
-  BareRays bare(world, lists);
-  EXPECT_EQ(bare.count(), count);
-  for (int round = 0; round < 2; ++round) {  // the first leaves nothing behind
-    bare.packetSeconds();
-    EXPECT_EQ(bare.blocked(), blocked);
-    bare.singleSeconds();
-    EXPECT_EQ(bare.blocked(), blocked);
+  for (const BareSettings& settings : {BareSettings{}, likeTracer()}) {
+    BareRays bare(world, lists, settings);
+    EXPECT_EQ(bare.count(), count);
+    for (int round = 0; round < 2; ++round) {  // the first leaves nothing behind
+      bare.packetSeconds();
+      EXPECT_EQ(bare.blocked(), blocked);
+      bare.singleSeconds();
+      EXPECT_EQ(bare.blocked(), blocked);
+    }
   }
 }
 

@@ -34,12 +34,17 @@ std::vector<const Measurement*> allOf(const Results& results, const Name& begin)
   return found;
 }
 
-// Whole CPU seconds of an engine: what the sample lets expect.
-std::string expected(const Results& results, const std::string& engine, const Name& load) {
+const Measurement* engineOf(const Results& results, const std::string& engine, const Name& load) {
   const Measurement* m = results.find({kEngine, engine, load[1], load[2]});
-  if (!m || m->samples("all_s").empty()) return "-";
-  return fmt::format("{} ± {} (extrapolated from {} %)", numberText(of(*m, "all_s")),
-                     numberText(of(*m, "all_error_s")), numberText(100 * of(*m, "share")));
+  return m && !m->samples("all_tracing_s").empty() ? m : nullptr;
+}
+
+// Seconds of an engine's rays, as its sample lets expect.
+std::string expectedTracing(const Results& results, const std::string& engine, const Name& load) {
+  const Measurement* m = engineOf(results, engine, load);
+  if (!m) return "-";
+  return fmt::format("{} ± {}", numberText(of(*m, "all_tracing_s")),
+                     numberText(of(*m, "all_tracing_error_s")));
 }
 
 Table lightTable(const Results& results) {
@@ -61,16 +66,24 @@ Table lightTable(const Results& results) {
   return table;
 }
 
+// Sampling and shading are the same for both engines.
 Table cpuTable(const Results& results) {
   Table table{
-      .title = "Seconds of CPU of the light stage: Embree in full, the octree from a sample",
-      .head = {"scene", "lights", "sampling", "shading", "tracing", "Embree, all of it",
-               "the same from the octree's sample", "octree"}};
-  for (const Measurement* m : allOf(results, {kLight}))
-    table.rows.push_back(
-        {m->name[2], m->name[1], numberText(of(*m, "sampling_s")), numberText(of(*m, "shading_s")),
-         numberText(of(*m, "tracing_s")), numberText(1e-3 * spreadOf(m->cpuMs).median),
-         expected(results, kEmbree, m->name), expected(results, kOctree, m->name)});
+      .title = "Seconds of CPU of the light stage: Embree in full; the octree's rays extrapolated",
+      .head = {"scene", "lights", "sampling", "shading", "Embree, rays", "Embree, all of it",
+               "octree, rays (extrapolated)", "from % of the rays",
+               "octree, all of it (extrapolated)", "Embree's rays, extrapolated likewise"}};
+  for (const Measurement* m : allOf(results, {kLight})) {
+    const Measurement* octree = engineOf(results, kOctree, m->name);
+    const double same = of(*m, "sampling_s") + of(*m, "shading_s");
+    table.rows.push_back({m->name[2], m->name[1], numberText(of(*m, "sampling_s")),
+                          numberText(of(*m, "shading_s")), numberText(of(*m, "tracing_s")),
+                          numberText(1e-3 * spreadOf(m->cpuMs).median),
+                          expectedTracing(results, kOctree, m->name),
+                          octree ? numberText(100 * of(*octree, "share")) : "-",
+                          octree ? numberText(same + of(*octree, "all_tracing_s")) : "-",
+                          expectedTracing(results, kEmbree, m->name)});
+  }
   return table;
 }
 
@@ -123,7 +136,9 @@ Table packingTable(const Results& results) {
               .head = {"scene", "texels a unit", "charts", "charts made, s", "worst stretch",
                        "masks", "masks, s", "rectangles", "rectangles, s"}};
   const auto filled = [](const Measurement& m) {
-    return fmt::format("{:.0f} maps, {:.1f} %", of(m, "maps"), 100 * of(m, "occupancy"));
+    const double maps = of(m, "maps");
+    return fmt::format("{:.0f} map{}, {:.1f} %", maps, maps == 1 ? "" : "s",
+                       100 * of(m, "occupancy"));
   };
   for (const Measurement* m : allOf(results, {kPacking, kMasks})) {
     const Measurement* loose = results.find({kPacking, kRectangles, m->name[2]});

@@ -27,11 +27,13 @@ double secondsSince(Clock::time_point start) {
 
 // How much of each load engines share and rates are taken from.
 struct Sampled {
-  std::size_t rays;  // recorded
-  double seconds;    // of both engines in turns
+  std::size_t rays;  // recorded, unless that takes longer than
+  double recordingSeconds;
+  double seconds;  // of both engines in turns
 };
 Sampled sampled(bool quick) {
-  return quick ? Sampled{.rays = 200'000, .seconds = 1} : Sampled{.rays = 1'000'000, .seconds = 6};
+  return quick ? Sampled{.rays = 200'000, .recordingSeconds = 0.5, .seconds = 1}
+               : Sampled{.rays = 1'000'000, .recordingSeconds = 2.5, .seconds = 8};
 }
 
 // A folder for one bake, removed with the object.
@@ -84,13 +86,11 @@ Status measureLight(SceneRun& run, const Load& load, const LoadPlan& planned,
   LUCERNA_TRY(folder, BakeFolder::make());
   bake::BakeReport report;
   LUCERNA_TRY_VOID(bake::prepareFolder(folder->path(), false, {}));
-  const double planMib = mib(residentBytes() - std::min(residentBytes(), before));
-  const auto peak = [&] {
-    return mib(peakResidentBytes() - std::min(peakResidentBytes(), before));
-  };
+  const auto since = [&](std::uint64_t bytes) { return mib(bytes - std::min(bytes, before)); };
   const bool known = forgetPeak();
+  const double planMib = since(residentBytes());
   LUCERNA_TRY_VOID(bake::lightShard(planned.plan, folder->path(), {}, report));
-  const double lightMib = peak();
+  const double lightMib = since(peakResidentBytes());
   forgetPeak();
   LUCERNA_TRY_VOID(bake::finish(planned.plan, folder->path(), report));
   Measurement& m = run.results.at({kLight, std::string(load.name), run.name});
@@ -100,7 +100,7 @@ Status measureLight(SceneRun& run, const Load& load, const LoadPlan& planned,
   if (known) {
     m.count("plan_mib", planMib);
     m.count("light_peak_mib", lightMib);
-    m.count("finish_peak_mib", peak());
+    m.count("finish_peak_mib", since(peakResidentBytes()));
   }
   return {};
 }
@@ -158,12 +158,16 @@ class Bench {
             .tracing = after.tracingSeconds - before.tracingSeconds,
             .rays = static_cast<double>(after.rays - before.rays)};
   }
-  // The first of the units that have that many rays together, and these rays.
-  std::size_t record(std::size_t rays, std::vector<bake::ShadowRays>& lists) {
+  // How many of the first units have that many rays together, as far as time allows; and their
+  // rays.
+  std::size_t record(const Sampled& wanted, std::vector<bake::ShadowRays>& lists) {
     turns_->record = &lists;
+    const auto start = Clock::now();
     std::size_t count = 0, found = 0;
-    for (; count < order_.size() && found < rays && !Progress::cancelled(); ++count)
+    for (; count < order_.size() && found < wanted.rays && !Progress::cancelled(); ++count) {
+      if (found > 0 && secondsSince(start) > wanted.recordingSeconds) break;
       found += static_cast<std::size_t>(light(order_[count], kEmbree).rays);
+    }
     turns_->record = nullptr;
     return count;
   }
@@ -207,9 +211,9 @@ void measureEngines(SceneRun& run, const Load& load, const bake::Plan& plan, Ben
     m.count("rays", sumOf(rays));
     m.count("tracing_s", sumOf(tracing[engine]));
     if (allRays.empty()) continue;
-    const Estimate all = estimateTotal(seconds[engine], rays, allRays.back(), plan.units.size());
-    m.count("all_s", all.total);
-    m.count("all_error_s", all.error);
+    const Estimate all = estimateTotal(tracing[engine], rays, allRays.back(), plan.units.size());
+    m.count("all_tracing_s", all.total);
+    m.count("all_tracing_error_s", all.error);
     m.count("share", all.share);
   }
 }
@@ -224,12 +228,13 @@ void addRate(SceneRun& run, const std::string& how, const Load& load, double ray
 // Rays of some units, once more by each, in turns.
 void measureRates(SceneRun& run, const Load& load, const bake::Plan& plan, Bench& bench) {
   std::vector<bake::ShadowRays> lists;
-  const std::size_t units = bench.record(sampled(run.results.context.quick).rays, lists);
-  bake::BareRays bare(plan.world, lists);
+  const std::size_t units = bench.record(sampled(run.results.context.quick), lists);
+  bake::BareRays bare(plan.world, lists), like(plan.world, lists, bake::likeTracer());
   const auto rays = static_cast<double>(bare.count());
   std::vector<vec3> shares;
   const std::vector<std::function<void()>> turns{
       [&] { addRate(run, kBarePackets, load, rays, bare.packetSeconds()); },
+      [&] { addRate(run, kLikeTracer, load, rays, like.packetSeconds()); },
       [&] { addRate(run, kBareSingle, load, rays, bare.singleSeconds()); },
       [&] {
         const auto start = Clock::now();
@@ -342,6 +347,7 @@ Status measure(SceneRun& run) {
   LUCERNA_TRY_VOID(measurePacking(run, density));
   run.advance(share);
   for (const Load& load : loads) {
+    if (run.results.context.quick && !load.quick) continue;
     LUCERNA_TRY(lit, measureLoad(run, load, density, scene.tables));
     if (!lit && load.lights == LoadLights::Lamps)
       LUCERNA_TRY_VOID(measureLoad(run, addedLights(), density, scene.tables));

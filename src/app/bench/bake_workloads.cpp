@@ -20,11 +20,11 @@ constexpr double kHour = 3600;
 constexpr std::array<Load, 7> kLoads{{
     {"lamps", LoadLights::Lamps, 0, 28.176 * 60, 0},
     {"few surfaces, 36 m", LoadLights::FewSurfaces, 36, 10.276, 657.89},
-    {"few surfaces, 51 m", LoadLights::FewSurfaces, 51, 19.483, 348.43},
-    {"few surfaces, 72 m", LoadLights::FewSurfaces, 72, 36.875, 183.82},
+    {"few surfaces, 51 m", LoadLights::FewSurfaces, 51, 19.483, 348.43, false},
+    {"few surfaces, 72 m", LoadLights::FewSurfaces, 72, 36.875, 183.82, false},
     {"all surfaces, 36 m", LoadLights::AllSurfaces, 36, 1.219 * kHour, 1149.43},
-    {"all surfaces, 51 m", LoadLights::AllSurfaces, 51, 2.398 * kHour, 584.80},
-    {"all surfaces, 72 m", LoadLights::AllSurfaces, 72, 4.746 * kHour, 294.99},
+    {"all surfaces, 51 m", LoadLights::AllSurfaces, 51, 2.398 * kHour, 584.80, false},
+    {"all surfaces, 72 m", LoadLights::AllSurfaces, 72, 4.746 * kHour, 294.99, false},
 }};
 constexpr Load kAdded{"added lights", LoadLights::Added};
 

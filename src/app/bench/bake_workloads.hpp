@@ -25,6 +25,7 @@ struct Load {
   float reach = 0;  // m; 0: as far as the lights say
   // What the thesis took for them, one thread: rays, s; and a second, by its own count, millions.
   double thesisSeconds = 0, thesisRate = 0;
+  bool quick = true;  // measured by --quick, too
 };
 // Of the tables.
 std::span<const Load> thesisLoads();
