@@ -12,9 +12,9 @@ namespace lucerna::bake {
 
 // How Embree is asked. By itself: as fast as it goes.
 struct BareSettings {
-  bool robust = false;         // RTC_SCENE_FLAG_ROBUST
-  bool coherent = true;        // RTC_INTERSECT_CONTEXT_FLAG_COHERENT, of packets
-  std::string instructionSet;  // "avx2", ...; "": the best there is
+  bool robust = false;           // RTC_SCENE_FLAG_ROBUST
+  bool coherent = true;          // RTC_INTERSECT_CONTEXT_FLAG_COHERENT, of packets
+  std::string instructionSet{};  // "avx2", ...; "": the best there is
 };
 // As the tracer asks it.
 BareSettings likeTracer();

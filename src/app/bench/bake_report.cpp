@@ -117,10 +117,10 @@ Table rateTable(const Results& results, bool share) {
   Table table{.title = share
                            ? "Rates as shares of Embree's packets of 16 alone: median of the rounds"
                            : "Million rays a second, one thread: the same rays in turns",
-              .head = {"scene", "lights"}};
+              .head = {"scene", "lights", "rays, M"}};
   table.head.insert(table.head.end(), kHows.begin(), kHows.end());
   for (const Measurement* m : allOf(results, {kRate, kBarePackets})) {
-    table.rows.push_back({m->name[3], m->name[2]});
+    table.rows.push_back({m->name[3], m->name[2], millions(of(*m, "rays"))});
     for (const std::string& how : kHows) {
       const Measurement* own = results.find({kRate, how, m->name[2], m->name[3]});
       const std::vector<double> rates = own ? own->samples("mrays_s") : std::vector<double>{};

@@ -32,8 +32,8 @@ struct Sampled {
   double seconds;  // of both engines in turns
 };
 Sampled sampled(bool quick) {
-  return quick ? Sampled{.rays = 200'000, .recordingSeconds = 0.5, .seconds = 1}
-               : Sampled{.rays = 1'000'000, .recordingSeconds = 2.5, .seconds = 8};
+  return quick ? Sampled{.rays = 200'000, .recordingSeconds = 2, .seconds = 1}
+               : Sampled{.rays = 1'000'000, .recordingSeconds = 15, .seconds = 8};
 }
 
 // A folder for one bake, removed with the object.
@@ -158,18 +158,21 @@ class Bench {
             .tracing = after.tracingSeconds - before.tracingSeconds,
             .rays = static_cast<double>(after.rays - before.rays)};
   }
-  // How many of the first units have that many rays together, as far as time allows; and their
-  // rays.
-  std::size_t record(const Sampled& wanted, std::vector<bake::ShadowRays>& lists) {
+  // Of the first units those with rays, until these are enough or time is up; and the rays.
+  std::vector<std::uint32_t> record(const Sampled& wanted, std::vector<bake::ShadowRays>& lists) {
     turns_->record = &lists;
     const auto start = Clock::now();
-    std::size_t count = 0, found = 0;
-    for (; count < order_.size() && found < wanted.rays && !Progress::cancelled(); ++count) {
-      if (found > 0 && secondsSince(start) > wanted.recordingSeconds) break;
-      found += static_cast<std::size_t>(light(order_[count], kEmbree).rays);
+    std::vector<std::uint32_t> units;
+    std::size_t found = 0;
+    for (const std::uint32_t unit : order_) {
+      const bool late = found > 0 && secondsSince(start) > wanted.recordingSeconds;
+      if (late || found >= wanted.rays || Progress::cancelled()) break;
+      const auto rays = static_cast<std::size_t>(light(unit, kEmbree).rays);
+      if (rays > 0) units.push_back(unit);
+      found += rays;
     }
     turns_->record = nullptr;
-    return count;
+    return units;
   }
 
  private:
@@ -223,17 +226,21 @@ void addRate(SceneRun& run, const std::string& how, const Load& load, double ray
   Measurement& m = run.results.at({kRate, how, std::string(load.name), run.name});
   m.add(1e3 * seconds, 1e3 * seconds);
   m.count("mrays_s", 1e-6 * rays / seconds);
+  m.count("rays", rays);
 }
 
 // Rays of some units, once more by each, in turns.
 void measureRates(SceneRun& run, const Load& load, const bake::Plan& plan, Bench& bench) {
   std::vector<bake::ShadowRays> lists;
-  const std::size_t units = bench.record(sampled(run.results.context.quick), lists);
-  bake::BareRays bare(plan.world, lists), like(plan.world, lists, bake::likeTracer());
+  const std::vector<std::uint32_t> units = bench.record(sampled(run.results.context.quick), lists);
+  const std::string instructions = bake::likeTracer().instructionSet;
+  bake::BareRays bare(plan.world, lists), same(plan.world, lists, {.instructionSet = instructions}),
+      like(plan.world, lists, bake::likeTracer());
   const auto rays = static_cast<double>(bare.count());
   std::vector<vec3> shares;
   const std::vector<std::function<void()>> turns{
       [&] { addRate(run, kBarePackets, load, rays, bare.packetSeconds()); },
+      [&] { addRate(run, kSameInstructions, load, rays, same.packetSeconds()); },
       [&] { addRate(run, kLikeTracer, load, rays, like.packetSeconds()); },
       [&] { addRate(run, kBareSingle, load, rays, bare.singleSeconds()); },
       [&] {
@@ -246,7 +253,7 @@ void measureRates(SceneRun& run, const Load& load, const bake::Plan& plan, Bench
       },
       [&] {
         Cost sum;
-        for (const std::uint32_t unit : bench.units().first(units)) {
+        for (const std::uint32_t unit : units) {
           const Cost cost = bench.light(unit, kEmbree);
           sum.sampling += cost.sampling;
           sum.shading += cost.shading;
