@@ -39,56 +39,43 @@ double areaOf(const bake::World& world) {
   return area;
 }
 
-bool shines(const scene::Scene& scene, const scene::Object& object) {
-  return scene.materials[object.material].emissive != vec3(0.f);
-}
-
 std::uint64_t cellsOf(const bake::Plan& plan) {
   return bake::findEmitters(plan.world, plan.charts.charts, 0, plan.settings.reach).cells;
 }
 
-// Leaves so many of the objects that shine, the first ones, and gives the others a dark copy of
-// their material.
-class Darkener {
- public:
-  explicit Darkener(scene::Scene& scene) : scene_(scene) {
-    for (std::uint32_t i = 0; i < scene.objects.size(); ++i)
-      if (shines(scene, scene.objects[i])) shining_.emplace_back(i, scene.objects[i].material);
-    std::map<std::uint32_t, std::uint32_t> dark;
-    for (const auto& [object, material] : shining_) {
-      const auto [copy, isNew] =
-          dark.emplace(material, static_cast<std::uint32_t>(scene.materials.size()));
-      if (isNew) {
-        scene::Material changed = scene.materials[material];
-        changed.emissive = vec3(0.f);
-        scene.materials.push_back(std::move(changed));
-      }
-      dark_.push_back(copy->second);
-    }
-  }
-  std::size_t count() const { return shining_.size(); }
-  void leave(std::size_t count) {
-    for (std::size_t i = 0; i < shining_.size(); ++i)
-      scene_.objects[shining_[i].first].material = i < count ? shining_[i].second : dark_[i];
-  }
+// Of each of the world's objects: cells of its emitting surfaces.
+std::vector<std::uint64_t> cellsOfObjects(const bake::Plan& plan) {
+  std::vector<std::vector<bake::Chart>> charts(plan.world.objects.size());
+  for (const bake::Chart& chart : plan.charts.charts) charts[chart.object].push_back(chart);
+  std::vector<std::uint64_t> cells;
+  for (const auto& own : charts)
+    cells.push_back(bake::findEmitters(plan.world, own, 0, plan.settings.reach).cells);
+  return cells;
+}
 
- private:
-  scene::Scene& scene_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> shining_;  // object, material
-  std::vector<std::uint32_t> dark_;
-};
-
-// As many objects as have no more cells than wanted; one at least.
+// Darkens objects until no more cells shine than wanted: the first ones stay that fit, and one at
+// least. Returns how many cells do.
 std::uint64_t leaveFew(LoadPlan& load) {
-  Darkener darkener(*load.scene);
-  std::size_t low = std::min<std::size_t>(1, darkener.count()), high = darkener.count() + 1;
-  while (low + 1 < high) {
-    const std::size_t middle = (low + high) / 2;
-    darkener.leave(middle);
-    (cellsOf(load.plan) <= kFew ? low : high) = middle;
+  scene::Scene& scene = *load.scene;
+  const std::vector<std::uint64_t> cells = cellsOfObjects(load.plan);
+  std::map<std::uint32_t, std::uint32_t> dark;  // copies of materials
+  std::uint64_t left = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] == 0) continue;
+    if (left == 0 || left + cells[i] <= kFew) {
+      left += cells[i];
+      continue;
+    }
+    std::uint32_t& material = scene.objects[load.plan.world.objects[i].object].material;
+    const auto [copy, isNew] =
+        dark.emplace(material, static_cast<std::uint32_t>(scene.materials.size()));
+    if (isNew) {
+      scene.materials.push_back(scene.materials[material]);
+      scene.materials.back().emissive = vec3(0.f);
+    }
+    material = copy->second;
   }
-  darkener.leave(low);
-  return cellsOf(load.plan);
+  return left;
 }
 
 // A sun and sixteen lamps that reach a quarter of the scene's diagonal.
