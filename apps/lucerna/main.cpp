@@ -39,6 +39,7 @@ int run(int count, char** words) {
   line.app.footer(
       "Exit codes: 0 ok, 1 failed or differs, 2 usage, 3 input unreadable, 4 no usable "
       "OpenGL,\n5 pipeline, pass or shader error, 130 cancelled.");
+  line.app.require_subcommand(0, 1);  // so that `bench bake` is a suite, not a second command
   addRender(line);
   addReference(line);
   addCompare(line);

@@ -18,7 +18,7 @@ from pages_test import Page
 
 PROGRAM = ""
 SUITES = ["passes", "forward", "sraa", "ssao-samples", "shadow-size", "depth-of-field", "soft-shadows",
-          "soft-shadows-quality"]
+          "soft-shadows-quality", "bake"]
 
 
 def small(scene="cornell", cameras=1, rounds=1, size="48x36"):
@@ -161,6 +161,25 @@ class BenchTest(unittest.TestCase):
         self.assertEqual(hard["leak"], 0)
         self.assertEqual(layered["others_steps"], 0)  # there are none
         self.assertIn("**Halo pixels, %**", text)
+
+    def test_the_baker_has_counts_rates_and_packing(self):
+        runs, text = self.measured("bake", "--quick", "--scene", "builtin:cornell", "--rounds", 1)
+        lamps, surfaces = (runs[f"bake/light/{lights}/cornell_median"] for lights in ("lamps", "all surfaces, 36 m"))
+        for run in lamps, surfaces:
+            self.assertGreaterEqual(run["pairs"], run["rays"])
+            self.assertGreater(run["rays"], 0)
+            self.assertEqual(run["thesis_pairs"], run["lights"] * run["maps"] * 2048**2)
+        self.assertEqual(lamps["lights"], 1)
+        embree, octree = (runs[f"bake/engine/{engine}/lamps/cornell_median"] for engine in ("embree", "octree"))
+        self.assertEqual(embree["rays"], octree["rays"])
+        self.assertLessEqual(embree["share"], 1)
+        self.assertGreater(octree["all_tracing_s"], 0)
+        for how in ("Embree, packets of 16", "Embree, ray by ray", "the tracer alone", "light stage: tracing"):
+            self.assertGreater(runs[f"bake/rate/{how}/lamps/cornell_median"]["mrays_s"], 0)
+        masks, rectangles = (runs[f"bake/packing/{how}/cornell_median"] for how in ("masks", "rectangles"))
+        self.assertGreater(masks["occupancy"], 0)
+        self.assertEqual(masks["charts"], rectangles["charts"])
+        self.assertNotIn("camera", text)
 
     def test_what_does_not_come_with_lucerna_is_skipped_with_a_word(self):
         arguments = ["forward", "--quick", "--size", "16x12", "--cameras", 1, "--rounds", 1]

@@ -54,13 +54,14 @@ std::string htmlOf(const Plot& plot) {
 
 std::vector<std::string> notesOf(const Results& results) {
   std::vector<std::string> notes = results.notes;
-  notes.insert(
-      notes.begin(),
-      fmt::format("{} {}camera{} a scene, pictures of {} px; each variant is drawn once to "
-                  "warm up and then {} time{}, in turn with the others.",
-                  results.cameras, results.ownCameras ? "of its own " : "seeded ",
-                  results.cameras == 1 ? "" : "s", fmt::join(results.sizes, ", "), results.rounds,
-                  results.rounds == 1 ? "" : "s"));
+  if (results.cameras > 0)  // else nothing was drawn
+    notes.insert(
+        notes.begin(),
+        fmt::format("{} {}camera{} a scene, pictures of {} px; each variant is drawn once to "
+                    "warm up and then {} time{}, in turn with the others.",
+                    results.cameras, results.ownCameras ? "of its own " : "seeded ",
+                    results.cameras == 1 ? "" : "s", fmt::join(results.sizes, ", "), results.rounds,
+                    results.rounds == 1 ? "" : "s"));
   if (results.cancelled) notes.insert(notes.begin(), "Cancelled: scenes are missing.");
   return notes;
 }

@@ -93,6 +93,7 @@ TEST(BenchPlot, BarsAreStackedAndAsLongAsTheirValues) {
 }
 
 struct Example {
+  Example() { results.context.driver = "llvmpipe"; }
   Results results{.suite = "passes", .cameras = 1, .rounds = 2};
   Report report{.title = "passes <1>",
                 .blocks = {"A paragraph.", Table{"ms", {"pass", "a|b"}, {{"Ao", "1 < 2"}}},
@@ -109,6 +110,14 @@ TEST(BenchReport, MarkdownHasNotesTextAndTables) {
                 "## passes \\<1\\>\n\n- Cancelled: scenes are missing.\n- 1 seeded camera a scene"),
             HasSubstr("- Skipped: sponza.\n\nA paragraph.\n\n**ms**\n\n| pass | a\\|b |\n"),
             HasSubstr("| Ao | 1 \\< 2 |\n"), Not(HasSubstr("Plot"))));
+}
+
+TEST(BenchReport, WhereNothingIsDrawnThereAreNoCamerasAndNoDriver) {
+  Example example;
+  example.results.cameras = 0;
+  example.results.context.driver.clear();
+  EXPECT_THAT(benchMarkdown({example.results}, {example.report}),
+              AllOf(Not(HasSubstr("camera")), Not(HasSubstr("OpenGL")), HasSubstr("- seed: 0\n")));
 }
 
 TEST(BenchReport, ThePageHasAllOfItAndNeedsNothingElse) {

@@ -50,14 +50,20 @@ const std::vector<double>& Measurement::samples(std::string_view counter) const 
 }
 
 std::vector<std::pair<std::string, std::string>> Context::described() const {
-  return {{"date", date},
-          {"Lucerna", fmt::format("{}, {} build", version, build)},
-          {"CPU", fmt::format("{}, {} cores, load {}", cpu, cores, listed(load))},
-          {"OpenGL", driver},
-          {"time of a pass", timers == "gpu-timer"
-                                 ? "by the GPU's timer"
-                                 : "by the CPU's clock, the GPU's work finished before and after"},
-          {"seed", fmt::format("{}{}", seed, quick ? "; measured quickly (--quick)" : "")}};
+  std::vector<std::pair<std::string, std::string>> pairs{
+      {"date", date},
+      {"Lucerna", fmt::format("{}, {} build", version, build)},
+      {"CPU", fmt::format("{}, {} cores, load {}", cpu, cores, listed(load))}};
+  if (!driver.empty()) {
+    pairs.emplace_back("OpenGL", driver);
+    pairs.emplace_back("time of a pass",
+                       timers == "gpu-timer"
+                           ? "by the GPU's timer"
+                           : "by the CPU's clock, the GPU's work finished before and after");
+  }
+  pairs.emplace_back("seed",
+                     fmt::format("{}{}", seed, quick ? "; measured quickly (--quick)" : ""));
+  return pairs;
 }
 
 Context contextOfMachine() {

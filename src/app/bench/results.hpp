@@ -41,8 +41,8 @@ struct Context {
   std::string cpu;
   int cores = 0;
   std::vector<double> load;  // of the machine over 1, 5 and 15 minutes, when it began
-  std::string driver;
-  std::string timers;  // "gpu-timer" or "cpu-after-finish"
+  std::string driver;        // "": nothing was drawn
+  std::string timers;        // "gpu-timer" or "cpu-after-finish"
   bool quick = false;
   unsigned long long seed = 0;
 
@@ -55,8 +55,9 @@ struct Results {
   std::string suite{};
   Context context{};
   std::vector<std::string> sizes{};  // of pictures: "800x600" px
-  int cameras = 0, rounds = 0;       // each variant takes `rounds` turns at each camera
-  bool ownCameras = false;           // those of the scenes, as many of them as there are
+  // Each variant takes `rounds` turns at each camera; no cameras: the suite draws nothing.
+  int cameras = 0, rounds = 0;
+  bool ownCameras = false;  // those of the scenes, as many of them as there are
   std::vector<Measurement> measurements{};
   std::vector<std::string> notes{};   // what was left out, and why
   bool cancelled = false;             // scenes are missing

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace lucerna::app::bench {
 namespace {
@@ -67,6 +68,23 @@ double slopeOf(std::span<const glm::dvec2> points) {
     xy += (p.x - mean.x) * (p.y - mean.y);
   }
   return xx > 0 ? xy / xx : 0;
+}
+
+Estimate estimateTotal(std::span<const double> cost, std::span<const double> size, double allSize,
+                       std::size_t parts) {
+  const double sampleCost = std::accumulate(cost.begin(), cost.end(), 0.0);
+  const double sampleSize = std::accumulate(size.begin(), size.end(), 0.0);
+  if (sampleSize <= 0 || allSize <= 0) return {};
+  const double ratio = sampleCost / sampleSize;
+  Estimate estimate{.total = ratio * allSize, .share = sampleSize / allSize};
+  if (cost.size() < 2) return estimate;
+  double squares = 0;
+  for (std::size_t i = 0; i < cost.size(); ++i)
+    squares += (cost[i] - ratio * size[i]) * (cost[i] - ratio * size[i]);
+  const auto n = static_cast<double>(cost.size());
+  const double unseen = std::max(1 - n / static_cast<double>(parts), 0.0);
+  estimate.error = allSize / (sampleSize / n) * std::sqrt(unseen * squares / (n - 1) / n);
+  return estimate;
 }
 
 }  // namespace lucerna::app::bench

@@ -33,4 +33,16 @@ std::optional<double> onLogCurve(std::span<const glm::dvec2> points, double x);
 // By how much y grows with x, by least squares; 0 of fewer than two different x.
 double slopeOf(std::span<const glm::dvec2> points);
 
+// What all of something takes, from a random sample of its parts.
+struct Estimate {
+  double total = 0;
+  double error = 0;  // standard error of the total
+  double share = 0;  // of all work, what the sample is
+};
+// cost and size: of each part of the sample, which is drawn without replacement; costs grow with
+// sizes. size: of all `parts` together they sum to `allSize`. The ratio estimator (Cochran,
+// "Sampling Techniques", 1977, section 6.3); all 0 if nothing is known.
+Estimate estimateTotal(std::span<const double> cost, std::span<const double> size, double allSize,
+                       std::size_t parts);
+
 }  // namespace lucerna::app::bench

@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/random.hpp"
+
 namespace lucerna::app::bench {
 namespace {
 
@@ -93,6 +95,56 @@ TEST(Statistics, RatiosAreOfTheSameTurn) {
   EXPECT_EQ(pairedRatios(std::vector<double>{2, 3}, std::vector<double>{1, 0}),
             std::vector<double>{2});
   EXPECT_TRUE(pairedRatios(std::vector<double>{2, 3}, std::vector<double>{1}).empty());
+}
+
+TEST(Statistics, WhatGrowsWithTheSizeIsEstimatedExactly) {
+  const Estimate estimate =
+      estimateTotal(std::vector<double>{2, 6, 0}, std::vector<double>{1, 3, 0}, 40, 30);
+  EXPECT_DOUBLE_EQ(estimate.total, 80);
+  EXPECT_DOUBLE_EQ(estimate.share, 0.1);
+  EXPECT_DOUBLE_EQ(estimate.error, 0);
+}
+
+TEST(Statistics, AnEstimateOfNothingIsNothing) {
+  EXPECT_EQ(estimateTotal({}, {}, 40, 30).total, 0);
+  EXPECT_EQ(estimateTotal(std::vector<double>{1}, std::vector<double>{0}, 40, 30).total, 0);
+}
+
+TEST(Statistics, AllOfItHasNoError) {
+  const std::vector<double> cost{1, 2, 4}, size{1, 1, 1};
+  const Estimate estimate = estimateTotal(cost, size, 3, 3);
+  EXPECT_DOUBLE_EQ(estimate.total, 7);
+  EXPECT_DOUBLE_EQ(estimate.error, 0);
+}
+
+// Over many samples the totals scatter by as much as each of them says.
+TEST(Statistics, TheErrorOfAnEstimateIsHowFarItIsOff) {
+  constexpr std::size_t kParts = 400, kSample = 40;
+  Random random(7);
+  std::vector<double> cost(kParts), size(kParts);
+  double all = 0, allSize = 0;
+  for (std::size_t i = 0; i < kParts; ++i) {
+    size[i] = random.uniform(1, 5);
+    cost[i] = 2 * size[i] * random.uniform(0.5f, 1.5f);
+    all += cost[i];
+    allSize += size[i];
+  }
+  double squares = 0, said = 0;
+  constexpr int kTimes = 2000;
+  for (int time = 0; time < kTimes; ++time) {
+    std::vector<double> someCost, someSize;
+    for (std::uint32_t i = 0; i < kSample; ++i) {
+      const std::uint32_t other = i + random.below(kParts - i);
+      std::swap(cost[i], cost[other]);
+      std::swap(size[i], size[other]);
+      someCost.push_back(cost[i]);
+      someSize.push_back(size[i]);
+    }
+    const Estimate estimate = estimateTotal(someCost, someSize, allSize, kParts);
+    squares += (estimate.total - all) * (estimate.total - all) / kTimes;
+    said += estimate.error / kTimes;
+  }
+  EXPECT_NEAR(said / std::sqrt(squares), 1, 0.08);
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 
 #include "core/file.hpp"
 #include "core/log.hpp"
+#include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "scene/load.hpp"
 
 namespace lucerna::app::bench {
 namespace {
@@ -58,8 +60,31 @@ Extent extentOf(const Suite& suite, const BenchOptions& options, const SceneChoi
   return extent;
 }
 
+// What is there is measured as it stands when its animations begin.
+Status measureUndrawn(const Suite& suite, const SceneChoice& choice, const BenchOptions& options,
+                      Results& results, Progress& progress) {
+  setThreadCount(options.render.threads);
+  LUCERNA_TRY(scene, scene::loadScene(choice.path));
+  for (const std::string& warning : scene.warnings) log::warning("{}", warning);
+  scene::animate(scene, 0.f);
+  double done = 0;
+  const auto units = [&] { return static_cast<std::uint64_t>(done * kSceneUnits); };
+  SceneRun run{.scene = scene,
+               .results = results,
+               .name = choice.name,
+               .path = choice.path,
+               .extent = extentOf(suite, options, choice),
+               .advance = [&](double share) {
+                 const std::uint64_t before = units();
+                 done += share;
+                 progress.advance(units() - before);
+               }};
+  return suite.measureScene(run);
+}
+
 Status measure(const Suite& suite, const SceneChoice& scene, const BenchOptions& options,
                Results& results, Progress& progress) {
+  if (suite.measureScene) return measureUndrawn(suite, scene, options, results, progress);
   const Extent extent = extentOf(suite, options, scene);
   StageSettings settings{.render = options.render,
                          .lighting = suite.lighting,
@@ -174,7 +199,8 @@ std::vector<std::size_t> turnOrder(std::size_t count, std::size_t round) {
 std::span<const Suite> suites() {
   static const std::vector<Suite> all{
       passesSuite(),     forwardSuite(),      sraaSuite(),        ssaoSamplesSuite(),
-      shadowSizeSuite(), depthOfFieldSuite(), softShadowsSuite(), softShadowsQualitySuite()};
+      shadowSizeSuite(), depthOfFieldSuite(), softShadowsSuite(), softShadowsQualitySuite(),
+      bakeSuite()};
   return all;
 }
 
@@ -197,11 +223,11 @@ Results run(const Suite& suite, const BenchOptions& options) {
   Results results{.suite = std::string(suite.name), .context = contextOfMachine()};
   results.context.quick = options.quick;
   results.ownCameras = suite.places == Places::Own;
-  results.cameras = extent.cameras;
+  results.cameras = suite.measureScene ? 0 : extent.cameras;
   results.rounds = extent.rounds;
   results.context.seed = options.render.seed;
   const std::vector<SceneChoice> scenes = scenesOf(suite, options, results);
-  for (const SceneChoice& scene : scenes)
+  for (const SceneChoice& scene : suite.measureScene ? std::vector<SceneChoice>{} : scenes)
     for (const uvec2 size : extentOf(suite, options, scene).sizes)
       if (const std::string name = sizeName(size);
           std::ranges::find(results.sizes, name) == results.sizes.end())

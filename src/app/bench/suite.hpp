@@ -102,6 +102,16 @@ class Run {
   std::vector<Lane> lanes_;
 };
 
+// The same of a suite that draws nothing.
+struct SceneRun {
+  const scene::Scene& scene;
+  Results& results;
+  std::string name;  // of the scene
+  std::string path;  // what it was loaded from
+  Extent extent;
+  std::function<void(double share)> advance;  // of the scene's work
+};
+
 // In which order `count` variants draw in a round: over `count` rounds (twice as many if count is
 // odd) each follows each other one equally often (Williams, "Experimental Designs Balanced for the
 // Estimation of Residual Effects of Treatments", 1949).
@@ -115,6 +125,8 @@ struct Suite {
   Places places = Places::Seeded;
   Surfaces surfaces = Surfaces::Own;
   Status (*measure)(Run& run) = nullptr;
+  // Instead of that: without pictures, cameras and GL.
+  Status (*measureScene)(SceneRun& run) = nullptr;
   // Of results with at least one measurement.
   std::vector<Block> (*report)(const Results& results) = nullptr;
 };
@@ -143,6 +155,7 @@ Suite shadowSizeSuite();
 Suite depthOfFieldSuite();
 Suite softShadowsSuite();
 Suite softShadowsQualitySuite();
+Suite bakeSuite();
 
 // "800x600"
 std::string sizeName(uvec2 size);
