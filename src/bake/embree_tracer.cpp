@@ -144,6 +144,11 @@ class EmbreeTracer final : public ShadowTracer {
 }  // namespace
 
 const char* rayInstructionSet() {
+  // All that Embree's "avx512" is made of.
+  if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+      __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
+      __builtin_cpu_supports("avx512vl"))
+    return "avx512";
   return __builtin_cpu_supports("avx2") ? "avx2" : "sse4.2";
 }
 

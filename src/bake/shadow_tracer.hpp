@@ -43,8 +43,9 @@ class ShadowTracer {
   virtual void trace(const ShadowRays& rays, std::span<vec3> shares) const = 0;
 };
 
-// What Embree follows rays with, so that processors that know more give the same bits: "avx2", or
-// "sse4.2" on those that do not have it.
+// What Embree follows rays with: "avx512", "avx2" or "sse4.2", the best that this processor has.
+// Another one may decide otherwise where rays graze edges, so manifests name it, and shards of a
+// bake have to agree.
 const char* rayInstructionSet();
 
 // By Embree, in packets of sixteen. The world outlives it, and so below.
