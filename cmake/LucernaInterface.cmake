@@ -6,7 +6,7 @@
 file(GLOB_RECURSE lucerna_headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src
   ${PROJECT_SOURCE_DIR}/src/*.hpp)
 list(FILTER lucerna_headers EXCLUDE REGEX
-  "_test|test_folder|fake_pass|^gpu/(gl|gl_format|device_impl)\\.hpp|^image/exr_|^passes/.*/|^scene/(gltf|import|builtin)/|^app/bench/soft_shadows_quality|^script/shipped")
+  "_test|test_folder|fake_pass|_fixture|slow_decoder|trace_scenes|^bake/(triangle_soup|light_scenes|brute_force)|^scene/gltf/gltf_structure|^gpu/(gl|gl_format|device_impl)\\.hpp|^image/exr_|^passes/.*/|^scene/(gltf|import|builtin)/|^app/bench/soft_shadows_quality|^script/shipped")
 list(APPEND lucerna_headers
   scene/gltf/gltf_writer.hpp  # the one of its folder that is for others
   render/blocks.glsl)         # which C++ includes, too

@@ -304,6 +304,9 @@ void addBake(CommandLine& line) {
       ->add_option_function<std::vector<float>>(
           "--sky",
           [options](const std::vector<float>& values) {
+            if (values.size() != 1 && values.size() != 3)
+              throw CLI::ValidationError(
+                  "--sky", fmt::format("found {} numbers, wanted one or R,G,B", values.size()));
             options->bake.sky =
                 values.size() == 3 ? vec3(values[0], values[1], values[2]) : vec3(values[0]);
           },

@@ -9,6 +9,7 @@
 
 #include "bake/assemble.hpp"
 #include "bake/bake_order.hpp"
+#include "bake/seconds.hpp"
 #include "bake/unit_log.hpp"
 #include "bake/write_lightmap.hpp"
 #include "core/parallel.hpp"
@@ -19,11 +20,6 @@ namespace lucerna::bake {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // The first error of any thread; the others stop.
 class FirstError {

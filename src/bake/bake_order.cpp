@@ -30,6 +30,7 @@ Json settingsJson(const BakeSettings& s) {
             {"padding", s.pack.gap},
             {"mostMaps", s.pack.mostMaps},
             {"positions", s.sampling.positions},
+            {"finePositions", s.sampling.finePositions},
             {"lightSamples", s.sampling.lightSamples},
             {"emitterSize", number(s.sampling.emitterSize)},
             {"faintest", number(s.faintest)},
@@ -44,12 +45,12 @@ Json settingsJson(const BakeSettings& s) {
 }
 
 void readSettings(const JsonValue& from, BakeSettings& s) {
-  if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions", "lightSamples",
-                    "emitterSize", "faintest", "sky", "skyDirections", "engine", "reach", "lights",
-                    "encode"}))
+  if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions",
+                    "finePositions", "lightSamples", "emitterSize", "faintest", "sky",
+                    "skyDirections", "engine", "reach", "lights", "encode"}))
     return;
-  from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "lightSamples",
-                "emitterSize", "faintest", "sky", "skyDirections", "engine"});
+  from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "finePositions",
+                "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "engine"});
   int choice = 0;
   if (from.readChoice("unwrap", {"charts", "pairs"}, choice))
     s.unwrap = choice == 0 ? Unwrap::Charts : Unwrap::Pairs;
@@ -58,6 +59,7 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
   from.readInteger("padding", s.pack.gap, 1, 64);
   from.readInteger("mostMaps", s.pack.mostMaps, 1, 4096);
   from.readInteger("positions", s.sampling.positions, 1, 64);
+  from.readInteger("finePositions", s.sampling.finePositions, 0, 64);
   from.readInteger("lightSamples", s.sampling.lightSamples, 1, 1 << 16);
   from.read("emitterSize", s.sampling.emitterSize, {1e-6f, 1e6f, ""});
   from.read("faintest", s.faintest, kUnitRange);

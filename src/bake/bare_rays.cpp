@@ -1,4 +1,5 @@
 #include "bake/bare_rays.hpp"
+#include "bake/seconds.hpp"
 
 #include <embree3/rtcore.h>
 
@@ -12,18 +13,12 @@
 namespace lucerna::bake {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr std::size_t kPacket = 16;
 
 struct Packet {
   RTCRay16 rays;
   alignas(64) std::array<int, kPacket> valid{};
 };
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Of the rays from `first` on; lanes behind the end of the list repeat the last.
 Packet packetOf(const ShadowRays& rays, std::size_t first) {

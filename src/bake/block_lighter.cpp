@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bake/polygon_light.hpp"
+#include "bake/seconds.hpp"
 #include "core/check.hpp"
 #include "trace/light_sampling.hpp"
 
@@ -14,27 +14,13 @@ namespace {
 
 using scene::LightKind;
 using scene::PlacedLight;
-using Clock = std::chrono::steady_clock;
 
 // On the rim of a light with a size: if they agree, they stand for all. Of a disc beyond a straight
 // edge that all of them miss there is 1 %.
 constexpr int kRimPoints = 8;
 
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 float distanceTo(const Aabb& box, vec3 p) {
   return glm::length(glm::max(glm::max(box.min - p, p - box.max), vec3(0.f)));
-}
-
-float distanceBetween(const Aabb& a, const Aabb& b) {
-  return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), vec3(0.f)));
-}
-
-// The largest dot(axis, p) of the box's points.
-float highestAlong(vec3 axis, const Aabb& box) {
-  return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
 }
 
 // The size of the light, seen as a ball around its place.
@@ -325,188 +311,6 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
         sums_[lit_[i]] += light.intensity * weights_[lit_[i]] * shares_[i];
     }
   }
-  counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
-}
-
-// False only if nothing of the node reaches the tile.
-bool BlockLighter::mayLight(const Samples& samples, const Tile& tile,
-                            const EmitterNode& node) const {
-  const bool oneWay = node.isCell() || node.emission.normalW != vec3(0.f);
-  if (samples.planar) {
-    // The corner of the box that is highest above the tile's plane.
-    const vec3 highest = glm::mix(node.boxW.min, node.boxW.max, glm::step(vec3(0.f), samples.axis));
-    // What lies in the tile's own plane is as clear of it as the samples.
-    if (glm::dot(samples.axis, highest - samples.corners[0]) <= liftAt(samples.corners[0]))
-      return false;
-  }
-  if (oneWay && highestAlong(node.axis, tile.boundsW) + highestAlong(-node.axis, node.boxW) <=
-                    liftAt(samples.boundsW.center()))
-    return false;
-  if (node.cosine <= 0.f) return true;
-  // Whether all directions from the node to the tile are behind all of its normals: both as balls.
-  const vec3 to = tile.boundsW.center() - node.boxW.center();
-  const float distance = glm::length(to);
-  const float ball = 0.5f * (tile.boundsW.diagonal() + node.boxW.diagonal());
-  if (distance <= ball) return true;
-  const float sinSpread = std::sqrt(std::max(1.f - node.cosine * node.cosine, 0.f));
-  const float sinBall = ball / distance;
-  if (sinSpread + sinBall >= 1.f) return true;
-  return glm::dot(to / distance, node.axis) > -(sinSpread + sinBall);
-}
-
-// weights_, as shade(): of a point of a surface.
-void BlockLighter::shadeEmission(const Samples& s, const Emission& e, float reach, Tile range) {
-  if (scene_.bake.area) {
-    shade(s, {.light = lightOf(e, scene_, reach), .centreW = e.positionW}, range);
-    return;
-  }
-  const std::size_t count = range.count;
-  weights_.resize(s.size());
-  float* weights = weights_.data() + range.first;
-  const float *x = s.x.data() + range.first, *y = s.y.data() + range.first,
-              *z = s.z.data() + range.first;
-  const float *nx = s.nx.data() + range.first, *ny = s.ny.data() + range.first,
-              *nz = s.nz.data() + range.first;
-  const vec3 from = e.positionW, axis = e.normalW;
-  const float inverse = 1.f / (reach * reach);  // 0 for an infinite reach
-  for (std::size_t i = 0; i < count; ++i) {
-    const float lx = from.x - x[i], ly = from.y - y[i], lz = from.z - z[i];
-    const float squared = lx * lx + ly * ly + lz * lz;
-    const float receiving = nx[i] * lx + ny[i] * ly + nz[i] * lz;
-    const float sending = -(axis.x * lx + axis.y * ly + axis.z * lz);
-    const float ratio = std::min(squared * inverse, 1.f);
-    const float window = 1.f - ratio * ratio;
-    const float d2 = std::max(squared, 1e-8f);
-    weights[i] = std::max(receiving, 0.f) * std::max(sending, 0.f) * window * window / (d2 * d2);
-  }
-}
-
-// corrected: the weights times corrections_.
-void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
-                               float reach, bool corrected) {
-  shadeEmission(samples, emission, reach, tile);
-  if (corrected)
-    for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i)
-      weights_[i] *= corrections_[i];
-  const LightPoint point{.light = lightOf(emission, scene_, reach), .centreW = emission.positionW};
-  const std::size_t first = lit_.size();
-  collect(samples, point, tile, {});
-  values_.resize(lit_.size());
-  for (std::size_t i = first; i < lit_.size(); ++i)
-    values_[i] = point.light.intensity * weights_[lit_[i]];
-  constexpr std::size_t kMostRays = 4096;
-  if (lit_.size() >= kMostRays) flush();
-}
-
-void BlockLighter::flush() {
-  const auto start = Clock::now();
-  counters.pairs += lit_.size();
-  counters.rays += lit_.size();
-  shares_.resize(lit_.size());
-  tracer_.trace(rays_, shares_);
-  for (std::size_t i = 0; i < lit_.size(); ++i) sums_[lit_[i]] += values_[i] * shares_[i];
-  lit_.clear();
-  values_.clear();
-  rays_.resize(0);
-  counters.tracingSeconds += secondsSince(start);
-}
-
-// A cell by a grid of points: they tell what share of it is seen. What all of it gives where
-// nothing is in the way is known.
-void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                               int split) {
-  const int count = split * split;
-  const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
-  Emission part = cell.emission;
-  part.intensity /= static_cast<float>(count);
-  const auto pointAt = [&](int i) {
-    const vec2 at = (vec2(i % split, i / split) + 0.5f) / static_cast<float>(split) - 0.5f;
-    return middle + u * at.x + v * at.y;
-  };
-  const float area = glm::length(glm::cross(u, v));
-  const bool corrected = !scene_.bake.area && area > 0.f;
-  if (corrected) {
-    corrections_.resize(samples.size());
-    std::fill_n(corrections_.begin() + tile.first, tile.count, 0.f);
-    for (int i = 0; i < count; ++i) {
-      part.positionW = pointAt(i);
-      shadeEmission(samples, part, std::numeric_limits<float>::infinity(), tile);
-      for (std::uint32_t k = tile.first; k < tile.first + tile.count; ++k)
-        corrections_[k] += weights_[k];
-    }
-    const std::array<vec3, 4> corners{middle - 0.5f * (u + v), middle + 0.5f * (u - v),
-                                      middle + 0.5f * (u + v), middle - 0.5f * (u - v)};
-    for (std::uint32_t k = tile.first; k < tile.first + tile.count; ++k) {
-      float& correction = corrections_[k];
-      if (correction <= 0.f) continue;
-      const vec3 to(samples.x[k], samples.y[k], samples.z[k]);
-      const vec3 normal(samples.nx[k], samples.ny[k], samples.nz[k]);
-      correction =
-          polygonIrradiance(corners, to, normal) * static_cast<float>(count) / (area * correction);
-    }
-  }
-  for (int i = 0; i < count; ++i) {
-    part.positionW = pointAt(i);
-    addEmission(samples, tile, part, cell.reach, corrected);
-  }
-}
-
-// A node, or a cell that is small enough for its distance: one point.
-void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
-                               float distance) {
-  constexpr float kMostSplit = 4.f;  // points along each side of a cell
-  const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
-  if (node.isCell() && wanted > 1.f)
-    lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
-  else
-    addEmission(samples, tile, node.emission, node.reach, false);
-}
-
-// found_: the nodes with one direction that may light the block, for all of its tiles.
-void BlockLighter::findNodes(const Samples& samples) {
-  const auto start = Clock::now();
-  const std::vector<EmitterNode>& nodes = emitters_.nodes;
-  const Tile all{
-      .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
-  found_.clear();
-  stack_.assign(1, 0);
-  while (!stack_.empty()) {
-    const std::uint32_t at = stack_.back();
-    stack_.pop_back();
-    const EmitterNode& node = nodes[at];
-    if (distanceBetween(node.boxW, all.boundsW) >= node.reach || !mayLight(samples, all, node))
-      continue;
-    if (node.isCell() || node.emission.normalW != vec3(0.f)) {
-      found_.push_back(at);
-      continue;
-    }
-    stack_.push_back(node.right);
-    stack_.push_back(at + 1);
-  }
-  counters.shadingSeconds += secondsSince(start);
-}
-
-void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
-  const auto start = Clock::now();
-  const double tracing = counters.tracingSeconds;
-  const std::vector<EmitterNode>& nodes = emitters_.nodes;
-  stack_ = found_;
-  while (!stack_.empty()) {
-    const std::uint32_t at = stack_.back();
-    stack_.pop_back();
-    const EmitterNode& node = nodes[at];
-    const float distance = distanceBetween(node.boxW, tile.boundsW);
-    if (distance >= node.reach || !mayLight(samples, tile, node)) continue;
-    const bool isOne = node.isCell() || (node.emission.normalW != vec3(0.f) &&
-                                         node.size <= settings_.emitterSize * distance);
-    if (isOne) {
-      lightByNode(samples, tile, node, distance);
-      continue;
-    }
-    stack_.push_back(node.right);
-    stack_.push_back(at + 1);
-  }
-  if (!lit_.empty()) flush();
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
 }
 

@@ -32,7 +32,8 @@ Box2 boxOf(const Chart& chart) {
 
 // Whole texels; a rounding error beyond one is not worth another.
 ivec2 texelsOf(vec2 size) {
-  return glm::max(ivec2(glm::ceil(size - 1e-3f)), ivec2(1));
+  constexpr float kMost = 1e9f;  // more is too large for a map as well, and not for an integer
+  return glm::max(ivec2(glm::ceil(glm::min(size, kMost) - 1e-3f)), ivec2(1));
 }
 
 // Moves the corners to the origin and sets the size.

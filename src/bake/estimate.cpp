@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "bake/assemble.hpp"
+#include "bake/seconds.hpp"
 #include "bake/unit_light.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
@@ -20,12 +21,6 @@
 
 namespace lucerna::bake {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::uint64_t residentBytes() {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/statm", "r"),

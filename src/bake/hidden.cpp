@@ -124,7 +124,10 @@ void HiddenSamples::remove(Samples& samples, std::uint32_t chart) {
   hidden_.assign(samples.size(), false);
   const auto isCrossed = [&](const Tile& tile) {
     return occluders_.anyIn(slabAround(samples, tile, around(tile, samples.texelSize)),
-                            [&](std::uint32_t triangle) { return chartOf_[triangle] != chart; });
+                            [&](std::uint32_t triangle) {
+                              // Of a planar block's own triangles the slab is clear.
+                              return samples.planar || chartOf_[triangle] != chart;
+                            });
   };
   // Where nothing crosses the surface, all samples are as the first is.
   crossed_.clear();

@@ -25,9 +25,10 @@ std::vector<Unit> shareOut(std::span<const Block> blocks) {
 }
 
 Charts chartsOf(const World& world, const BakeSettings& settings) {
-  return makeCharts(
-      world,
-      {.unwrap = settings.unwrap, .density = settings.density, .mostSide = settings.pack.side});
+  return makeCharts(world, {.unwrap = settings.unwrap,
+                            .density = settings.density,
+                            .gap = settings.pack.gap,
+                            .mostSide = settings.pack.side});
 }
 
 Result<PackedCharts> packed(const Charts& charts, const BakeSettings& settings) {
@@ -82,7 +83,7 @@ Status choose(Plan& plan) {
 bool anyEmits(const World& world) {
   return std::ranges::any_of(world.objects, [&](const WorldObject& object) {
     const scene::Object& drawn = world.scene->objects[object.object];
-    return world.scene->materials[drawn.material].emissive != vec3(0.f);
+    return object.receives && world.scene->materials[drawn.material].emissive != vec3(0.f);
   });
 }
 

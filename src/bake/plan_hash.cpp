@@ -35,6 +35,7 @@ void add(ByteWriter& w, const scene::Material& m) {
 }
 
 void add(ByteWriter& w, const scene::PlacedLight& l) {
+  w(l.light);  // manifests name lights by it
   w(static_cast<int>(l.kind));
   for (const vec3 v : {l.positionW, l.directionW, l.intensity, l.attenuation}) w(v);
   for (const float f : {l.reach, l.radius, l.angle, l.cosInner, l.cosOuter, l.exponent}) w(f);
@@ -54,6 +55,11 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.sky);
   w(s.skyDirections);
   w(static_cast<int>(s.engine));
+}
+
+std::uint64_t shapeOf(const Image& image) {
+  return hashCombine(static_cast<std::uint64_t>(image.width()) << 32 | image.height(),
+                     static_cast<std::uint64_t>(image.type()) * 8 + image.channels());
 }
 
 template <typename T>
@@ -94,10 +100,11 @@ std::uint64_t hashOf(const Plan& plan) {
     hash = hashOfList(mesh.colors, hash);
   }
   for (const scene::Texture& texture : scene.textures)
-    hash = hashBytes(texture.image->bytes(),
-                     hashCombine(hash, static_cast<std::uint64_t>(texture.wrapS) * 8 +
-                                           static_cast<std::uint64_t>(texture.wrapT) * 2 +
-                                           (texture.nearest ? 1 : 0)));
+    hash = hashBytes(
+        texture.image->bytes(),
+        hashCombine(hashCombine(hash, shapeOf(*texture.image)),
+                    static_cast<std::uint64_t>(texture.wrapS) * 8 +
+                        static_cast<std::uint64_t>(texture.wrapT) * 2 + (texture.nearest ? 1 : 0)));
   return hash;
 }
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
+#include "bake/seconds.hpp"
 #include "bake/triangle.hpp"
 #include "core/byte_stream.hpp"
 #include "core/check.hpp"
@@ -11,9 +13,12 @@
 namespace lucerna::bake {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr float kLargestHalf = 65504.f;
+
+// Of lights so strong that their sum is no number nothing is stored.
+float storable(float irradiance) {
+  return std::isfinite(irradiance) ? std::min(irradiance, kLargestHalf) : 0.f;
+}
 
 Aabb boundsOf(const World& world) {
   Aabb box;
@@ -109,7 +114,7 @@ const Samples& UnitLighter::sample(const Block& block) {
   block_ = block;
   sampler_->sample(block, samples_);
   hidden_.remove(samples_, block.chart);
-  samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+  samplingSeconds += secondsSince(start);
   return samples_;
 }
 
@@ -136,7 +141,7 @@ void UnitLighter::refine(std::span<const scene::PlacedLight> lights, bool emitte
   const auto start = Clock::now();
   fineSampler_->sample(block_, fineSamples_, which);
   hidden_.remove(fineSamples_, block_.chart);
-  samplingSeconds += std::chrono::duration<double>(Clock::now() - start).count();
+  samplingSeconds += secondsSince(start);
   if (!lighter_.light(fineSamples_, lights, emitters, finePart_)) return;
   for (const std::uint16_t texel : fineSamples_.texels) part_[texel] = finePart_[texel];
 }
@@ -155,8 +160,7 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
     GroupLight& group = result.groups.emplace_back(GroupLight{.group = g, .rgb = {}});
     for (std::size_t i = 0; i < count; ++i)
       if (result.touched[i / 8] >> (i % 8) & 1)
-        for (int c = 0; c < 3; ++c)
-          group.rgb.push_back(halfFromFloat(std::min(texels_[i][c], kLargestHalf)));
+        for (int c = 0; c < 3; ++c) group.rgb.push_back(halfFromFloat(storable(texels_[i][c])));
   }
   return result;
 }

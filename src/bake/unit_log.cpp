@@ -139,12 +139,17 @@ Result<UnitLog> UnitLog::open(const std::filesystem::path& path, std::uint64_t p
   if (file < 0)
     return error(ErrorKind::Failed, "{}: cannot be written ({})", path.string(), reason());
   UnitLog log(path, file);
-  if (flock(file, LOCK_EX | LOCK_NB) != 0)
+  if (flock(file, LOCK_EX | LOCK_NB) != 0) {
+    if (errno != EWOULDBLOCK)
+      return error(ErrorKind::Failed,
+                   "{}: cannot be locked ({}); wanted a folder on a file system that has locks",
+                   path.string(), reason());
     return error(
         ErrorKind::Failed,
         "{}: another process bakes this part at the moment; wait for it, or choose another "
         "folder",
         path.string());
+  }
   LUCERNA_TRY(found, scan(file, path, planHash, units, {}));
   log.state_ = std::move(found.state);
   log.size_ = found.end;

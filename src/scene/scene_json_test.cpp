@@ -9,9 +9,8 @@
 
 #include "core/file.hpp"
 #include "core/progress.hpp"
-#include "core/test_folder.hpp"
 #include "image/image_file.hpp"
-#include "scene/load.hpp"
+#include "scene/scene_json_fixture.hpp"
 #include "scene/texture_store.hpp"
 
 namespace lucerna::scene {
@@ -20,35 +19,6 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
-
-// A folder with a one-triangle file (material "paint", light "lamp" by JSON below) for each test.
-class SceneJson : public testing::Test {
- protected:
-  void SetUp() override {
-    write("tri.obj", "mtllib tri.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl paint\nf 1 2 3\n");
-    write("tri.mtl", "newmtl paint\nKd 0.5 0.5 0.5\n");
-  }
-
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-  }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
-  void writePicture(const std::string& name, int width, int height) {
-    const Status written = writeImage(folder_ / name, Image(width, height, 4, ComponentType::U8));
-    ASSERT_TRUE(written) << written.error().message;
-  }
-  // The messages of a JSON that is refused.
-  std::string faultsOf(const std::string& text) {
-    write("s.json", text);
-    const Result<Scene> scene = loadScene(path("s.json"));
-    if (scene) return "";
-    EXPECT_EQ(scene.error().kind, ErrorKind::Input);
-    return scene.error().message;
-  }
-
-  TestFolder folder_;
-};
 
 TEST_F(SceneJson, ChangesTheMaterialOfAFileThatHasNone) {
   write("bare.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
@@ -458,42 +428,6 @@ TEST_F(SceneJson, TheExampleOfTheDocumentationIsGood) {
   EXPECT_EQ(scene->background.color, vec3(0.3f, 0.45f, 0.7f));
   EXPECT_EQ(scene->bake.mapSize, 1024);
   EXPECT_FALSE(scene->bake.areaLights);
-}
-
-TEST_F(SceneJson, BakeHintsAreReadAndWhatTheyLeaveOpenStaysOpen) {
-  const auto bakeOf = [&](const std::string& bake) {
-    write("s.json",
-          R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}], "bake": )" + bake + "}");
-    const Result<Scene> scene = loadScene(path("s.json"));
-    EXPECT_TRUE(scene) << scene.error().message;
-    return scene ? scene->bake : BakeHints();
-  };
-  EXPECT_EQ(bakeOf("{}"), BakeHints());
-  BakeHints hints = bakeOf(R"({"mapSize": 512, "patchTolerance": 0.25, "maps": false})");
-  EXPECT_EQ(hints.mapSize, 512);
-  EXPECT_EQ(hints.patchTolerance, 0.25f);
-  EXPECT_FALSE(hints.maps);
-  EXPECT_TRUE(hints.patches && hints.areaLights);
-  EXPECT_FALSE(hints.area) << "surfaces light by their radiance";
-  hints = bakeOf(R"({"areaCut": 60, "areaIntensity": 3, "patches": false})");
-  EXPECT_EQ(hints.area, (AreaLightRule{glm::radians(60.f), 0.2f, 3.f}));
-  EXPECT_FALSE(hints.patches || hints.mapSize || hints.patchTolerance);
-  EXPECT_EQ(bakeOf(R"({"areaAttenuation": 0.5})").area, (AreaLightRule{.attenuation = 0.5f}));
-}
-
-TEST_F(SceneJson, BakeHintsOutOfRangeAreFaults) {
-  const auto fault = [&](const std::string& bake) {
-    return faultsOf(R"({"lucerna": "scene/1", "include": [{"file": "tri.obj"}], "bake": )" + bake +
-                    "}");
-  };
-  EXPECT_THAT(fault(R"({"areaCut": 91})"), HasSubstr("/bake/areaCut: found 91, wanted"));
-  EXPECT_THAT(fault(R"({"areaAttenuation": 0})"), HasSubstr("/bake/areaAttenuation: found 0"));
-  EXPECT_THAT(fault(R"({"areaIntensity": -1})"), HasSubstr("/bake/areaIntensity: found -1"));
-  EXPECT_THAT(fault(R"({"patchTolerance": "low"})"), HasSubstr("/bake/patchTolerance: found"));
-  EXPECT_THAT(fault(R"({"mapSize": 8})"), HasSubstr("/bake/mapSize: found 8, wanted"));
-  EXPECT_THAT(fault(R"({"mapSize": 100.5})"), HasSubstr("/bake/mapSize: found 100.5"));
-  EXPECT_THAT(fault(R"({"maps": 1})"), HasSubstr("/bake/maps: found 1"));
-  EXPECT_THAT(fault(R"({"areaCutt": 1})"), HasSubstr("did you mean 'areaCut'?"));
 }
 
 // Two clips that put the node at x = 1 and x = 2.

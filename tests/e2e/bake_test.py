@@ -139,6 +139,14 @@ class BakeTest(unittest.TestCase):
         again = self.ok(self.lucerna("lightmap", "merge", "s5"))
         self.assertIn("nothing is left to merge", again.stderr)
 
+    def test_shards_of_the_final_preset_are_merged(self):
+        flags = ["--density", "20", "--size", "128", "--preset", "final"]
+        plain = self.whole("plain", *flags)
+        for shard in (1, 2):
+            self.ok(self.bake("f", *flags, "--shard", f"{shard}/2"))
+        self.ok(self.lucerna("lightmap", "merge", "f"))
+        self.assertEqual(self.hashes("f"), plain)
+
     def test_shards_may_be_divided_anew(self):
         plain = self.whole("plain", *SMALL)
         self.ok(self.bake("d", *SMALL, "--shard", "2/3"))

@@ -1,0 +1,14 @@
+// Stop watches.
+#pragma once
+
+#include <chrono>
+
+namespace lucerna::bake {
+
+using Clock = std::chrono::steady_clock;
+
+inline double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace lucerna::bake
