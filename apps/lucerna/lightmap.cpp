@@ -92,7 +92,7 @@ double luminance(const float* rgb) {
 
 void addLight(MapTable& table, const Image& map, const lightmap::ChartTexels& texels) {
   double sum = 0.;
-  std::uint64_t count = 0;
+  std::uint64_t count = 0, sound = 0;
   for (int y = 0; y < texels.side; ++y)
     for (int x = 0; x < texels.side; ++x) {
       if (texels.at(x, y) == lightmap::ChartTexels::kNothing) continue;
@@ -102,13 +102,13 @@ void addLight(MapTable& table, const Image& map, const lightmap::ChartTexels& te
         ++table.unsound;
         continue;
       }
-      table.least = count == 1 ? value : std::min(table.least, value);
+      table.least = ++sound == 1 ? value : std::min(table.least, value);
       table.most = std::max(table.most, value);
       sum += value;
     }
   table.texels = count;
   table.used = static_cast<double>(count) / (static_cast<double>(texels.side) * texels.side);
-  table.mean = count > 0 ? sum / static_cast<double>(count) : 0.;
+  table.mean = sound > 0 ? sum / static_cast<double>(sound) : 0.;
   table.overlaps = texels.overlaps.size();
 }
 
