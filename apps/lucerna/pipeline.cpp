@@ -122,7 +122,8 @@ Result<int> list(bool json) {
 
 void addPipeline(CommandLine& line) {
   CLI::App* group = line.app.add_subcommand("pipeline", "list, check, print or draw pipelines");
-  addCommand(line, *group, "list", "the shipped pipelines", [&line] { return list(line.talk.json); });
+  addCommand(line, *group, "list", "the shipped pipelines",
+             [&line] { return list(line.talk.json); });
   auto options = std::make_shared<Options>();
   const auto add = [&](const char* name, const char* help,
                        Result<int> (*run)(const Options&, bool)) {

@@ -137,7 +137,8 @@ std::vector<std::string> shadowMethodNames() {
 
 Chain chainOf(const ShadowMethod& method, const ShadowFrame& frame) {
   Chain chain{{{"Cull"}, {"GBuffer"}}};
-  if (method.shadows()) chain.rows.push_back({"ShadowMaps", {setting("localSize", frame.mapSize), "localLights=256"}});
+  if (method.shadows())
+    chain.rows.push_back({"ShadowMaps", {setting("localSize", frame.mapSize), "localLights=256"}});
   chain.rows.push_back({"TileLights"});
   for (Row row : method.rows) {
     if (row.pass == "ShadowLayers") row.settings.push_back("conflicts=" + frame.conflicts);

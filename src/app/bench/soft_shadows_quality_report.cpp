@@ -71,10 +71,11 @@ std::vector<Bar> bars() {
                 {"leak, %", scene, "leak", 0.5},
                 {"false shadow, %", scene, "false_shadow", 0.5},
                 {"halo pixels, %", scene, "halo", 0.3}});
-  all.insert(all.end(), {{"error of widths, %", "", kWidths, 10},
-                         {"exponent of the size, distance from 1", "", "exponent", 0.03, false, Of::FromOne},
-                         {"others' steps of 255", "overlap 32", "others_steps", 2},
-                         {"others' steps of 255", kHall, "others_steps", 2}});
+  all.insert(all.end(),
+             {{"error of widths, %", "", kWidths, 10},
+              {"exponent of the size, distance from 1", "", "exponent", 0.03, false, Of::FromOne},
+              {"others' steps of 255", "overlap 32", "others_steps", 2},
+              {"others' steps of 255", kHall, "others_steps", 2}});
   return all;
 }
 
