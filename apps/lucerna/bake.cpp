@@ -35,9 +35,7 @@ struct Options {
 // What the presets stand for.
 const std::map<std::string, bake::Sampling>& presets() {
   static const std::map<std::string, bake::Sampling> known{
-      {"preview", {.positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f}},
-      {"standard", {.positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f}},
-      {"final", {.positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f}}};
+      {"preview", bake::kPreview}, {"standard", bake::kStandard}, {"final", bake::kFinal}};
   return known;
 }
 
@@ -57,8 +55,6 @@ double millions(std::uint64_t count) {
 }
 
 Json describe(const bake::Plan& plan) {
-  std::size_t lights = 0;
-  for (const bake::LightGroup& group : plan.groups) lights += group.lights.size();
   return {{"scene", plan.world.scene->name},
           {"triangles", plan.world.triangleCount()},
           {"charts", plan.charts.charts.size()},
@@ -68,7 +64,7 @@ Json describe(const bake::Plan& plan) {
           {"occupancy",
            bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side)},
           {"units", plan.units.size()},
-          {"lights", lights},
+          {"lights", bake::lightCount(plan)},
           {"groups", plan.groups.size() - 1}};
 }
 
@@ -151,10 +147,8 @@ std::string estimateText(const bake::Plan& plan, const bake::Estimate& e) {
       charts, plan.texels(), plan.packed.packing.maps, plan.settings.pack.side,
       plan.settings.pack.side,
       100. * bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side));
-  std::size_t lights = 0;
-  for (const bake::LightGroup& group : plan.groups) lights += group.lights.size();
-  text += fmt::format("{}, in {} groups that switch; {} cells of surfaces that shine\n", lights,
-                      plan.groups.size() - 1, e.emitterCells);
+  text += fmt::format("{}, in {} groups that switch; {} cells of surfaces that shine\n",
+                      bake::lightCount(plan), plan.groups.size() - 1, e.emitterCells);
   text += fmt::format(
       "light      about {:.3g} s after {:.2g} s to prepare, give or take {:.2g} s, on {} threads: "
       "an "
@@ -191,7 +185,7 @@ Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
   if (!options.resume) return false;
   const Result<bool> finished = bake::isFinished(plan, options.folder);
   if (finished && *finished) {
-    bake::removeWork(options.folder);
+    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
     log::info("'{}' is finished; nothing is left to do", options.folder);
     return true;
   }

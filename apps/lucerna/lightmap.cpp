@@ -38,8 +38,7 @@ Result<bool> isMerged(const std::string& folder) {
       !fs::exists(fs::path(folder) / "manifest.json", none))
     return false;
   LUCERNA_TRY(manifest, lightmap::readManifest(folder));
-  for (const lightmap::FileEntry& entry : lightmap::filesOf(manifest))
-    LUCERNA_TRY_VOID(lightmap::checkEntry(folder, entry));
+  LUCERNA_TRY_VOID(lightmap::checkEntries(folder, lightmap::filesOf(manifest)));
   return true;
 }
 
@@ -269,8 +268,7 @@ Result<int> inspect(const Options& options, bool json) {
   LUCERNA_TRY(layout, lightmap::readLayout(options.folder, all.manifest));
   all.layout = std::move(layout);
   LUCERNA_TRY_VOID(readPatches(all, options.folder));
-  for (const lightmap::FileEntry& entry : all.manifest.gltf)
-    LUCERNA_TRY_VOID(lightmap::checkEntry(options.folder, entry));
+  LUCERNA_TRY_VOID(lightmap::checkEntries(options.folder, all.manifest.gltf));
   LUCERNA_TRY_VOID(readScene(all, options));
   LUCERNA_TRY_VOID(makeFolder(options.output));
   Progress progress("looking at maps", all.manifest.maps.size());

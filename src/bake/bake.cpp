@@ -48,16 +48,22 @@ Status checkWritable(const fs::path& folder) {
                folder.string(), there.string());
 }
 
-bool holdsOthers(const fs::path& folder) {
-  std::error_code failed;
-  return fs::is_directory(folder, failed) && !fs::is_empty(folder, failed) &&
-         !fs::exists(folder / "manifest.json", failed) && !fs::exists(folder / kWorkFolder, failed);
-}
-
 // What is named like the temporary files of core/file.hpp.
 bool isTemporary(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.starts_with('.') && name.find(".tmp-") != std::string::npos;
+}
+
+// Whether anything lies there that no bake has made.
+bool holdsOthers(const fs::path& folder) {
+  std::error_code failed;
+  if (!fs::is_directory(folder, failed) || fs::exists(folder / "manifest.json", failed) ||
+      fs::exists(folder / kWorkFolder, failed))
+    return false;
+  const fs::directory_iterator files(folder, failed);
+  return std::any_of(begin(files), end(files), [](const fs::directory_entry& file) {
+    return !isTemporary(file.path()) && !isLightmapFile(file.path().filename().string());
+  });
 }
 
 // Marks what logs of other divisions into shards hold: no shard of this one writes them.
@@ -160,9 +166,12 @@ Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
                  "--resume to replace it",
                  folder.string());
   }
-  for (const lightmap::FileEntry& entry : lightmap::filesOf(*manifest))
-    LUCERNA_TRY_VOID(lightmap::checkEntry(folder, entry));
+  LUCERNA_TRY_VOID(lightmap::checkEntries(folder, lightmap::filesOf(*manifest)));
   return true;
+}
+
+bool isUnderWay(const fs::path& folder) {
+  return std::ranges::any_of(logsIn(folder), isBusy);
 }
 
 void removeWork(const fs::path& folder) {

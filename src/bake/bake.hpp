@@ -40,6 +40,9 @@ Status prepareFolder(const std::filesystem::path& folder, bool resume, const Sha
 // no unfinished one.
 Result<bool> isFinished(const Plan& plan, const std::filesystem::path& folder);
 
+// Whether another process bakes into DIR at the moment.
+bool isUnderWay(const std::filesystem::path& folder);
+
 // Removes DIR/work, and what writers that were killed left in DIR.
 void removeWork(const std::filesystem::path& folder);
 

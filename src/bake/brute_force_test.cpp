@@ -71,7 +71,8 @@ Comparison compare(const Case& c, const Sampling& sampling) {
 
 // The preset `final`. Its goal is 0.5 % of the mean as root mean square and 2 % for 99 of 100
 // texels; of 1000 texels there were, in this order, 0.25, 0.8, 0.4, 1.3 and 0.1 %, and 1.9, 3.7,
-// 1.9, 4.7 and 0.1 %. Bounds are for 500 texels, which vary.
+// 1.9, 4.7 and 0.1 %. Bounds are for 500 texels, which vary; the atrium's are the goal, for 3000, as
+// of 6000 there were 0.33 and 1.15 %.
 void expectFinal(const Case& c, double rmse, double p99) {
   const Comparison found = compare(c, kFinal);
   EXPECT_LT(found.rmse, rmse) << c.scene;
@@ -86,7 +87,7 @@ TEST(BruteForce, FinalAgreesOnCornell) {
   expectFinal({"builtin:cornell", 30.f, 1, 500, 1024}, 0.012, 0.05);
 }
 TEST(BruteForce, FinalAgreesOnAtrium) {
-  expectFinal({"builtin:atrium", 8.f, 40, 500, 1024, false}, 0.006, 0.03);
+  expectFinal({"builtin:atrium", 8.f, 10, 3000, 1024, false}, 0.005, 0.02);
 }
 // Ironwork close to the lamps is seen from few of their points.
 TEST(BruteForce, FinalAgreesOnAtriumWithSpheres) {

@@ -7,6 +7,7 @@
 
 #include "bake/clip_polygon.hpp"
 #include "bake/triangle.hpp"
+#include "trace/material_lookup.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -110,11 +111,7 @@ class Source {
   vec2 uvOf(std::uint32_t vertex) const {
     const scene::TextureSlot& slot = material_.emissiveTexture;
     const auto& coords = mesh_.texCoords[static_cast<std::size_t>(slot.texCoord)];
-    const vec2 scaled = slot.scale * (coords.empty() ? vec2(0.f) : coords[vertex]);
-    const float sine = std::sin(slot.rotation), cosine = std::cos(slot.rotation);
-    // As KHR_texture_transform: counter-clockwise with v downwards.
-    return slot.offset +
-           vec2(cosine * scaled.x + sine * scaled.y, cosine * scaled.y - sine * scaled.x);
+    return trace::transformed(slot, coords.empty() ? vec2(0.f) : coords[vertex]);
   }
 
   const World& world_;

@@ -72,20 +72,13 @@ void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> w
   for (const std::uint32_t i : which)
     for (const vec3 direction : directionsAround({samples.nx[i], samples.ny[i], samples.nz[i]}))
       asked_.push_back({.originW = positionAt(samples, i), .directionW = direction});
-  hits_.resize(asked_.size());
-  rays_.closest(asked_, hits_);
-  const trace::MaterialLookup& lookup = rays_.lookup();
+  counts_.resize(asked_.size());
+  rays_.solidsAround(asked_, counts_);
   constexpr std::size_t kRays = 5;
+  constexpr std::ptrdiff_t kEnough = 4;  // one may slip through an edge, or out of what is open
   for (std::size_t k = 0; k < which.size(); ++k) {
-    bool inside = true;
-    for (std::size_t r = kRays * k; r < kRays * (k + 1) && inside; ++r) {
-      const trace::Hit& hit = hits_[r];
-      inside = hit.any() && !lookup.frontFacing(hit.spot, asked_[r].directionW);
-      if (!inside) break;
-      const scene::Material& material = lookup.materialOf(hit.spot.object);
-      inside = !material.doubleSided && material.alphaMode == scene::AlphaMode::Opaque;
-    }
-    hidden_[which[k]] = inside;
+    const auto counts = std::span(counts_).subspan(kRays * k, kRays);
+    hidden_[which[k]] = std::ranges::count_if(counts, [](int n) { return n > 0; }) >= kEnough;
   }
 }
 

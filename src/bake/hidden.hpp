@@ -18,9 +18,9 @@ class HiddenSamples {
   HiddenSamples(const trace::RayScene& rays, const Occluders& occluders,
                 const std::vector<std::uint32_t>& chartOf);
 
-  // Takes out the samples that are inside of a solid: around them, all that rays meet first are
-  // the backs of opaque one-sided surfaces. Of a texel that something cuts in two those are left
-  // that see the one next to its middle.
+  // Takes out the samples that are inside of a solid: from them, rays meet more backs than fronts
+  // of opaque one-sided surfaces. Of a texel that something cuts in two those are left that see the
+  // one next to its middle.
   void remove(Samples& samples, std::uint32_t chart);
 
  private:
@@ -34,7 +34,7 @@ class HiddenSamples {
   std::vector<std::uint32_t> which_;
   std::vector<Samples::Tile> crossed_;
   std::vector<trace::Ray> asked_;
-  std::vector<trace::Hit> hits_;
+  std::vector<int> counts_;
   std::vector<vec3> shares_;
 };
 

@@ -3,6 +3,7 @@
 #include "bake/unit_light.hpp"
 #include "core/check.hpp"
 #include "core/parallel.hpp"
+#include "trace/trace_scenes.hpp"
 
 namespace lucerna::bake::testing {
 namespace {
@@ -83,19 +84,7 @@ std::vector<LitTexel> texelsOf(const std::vector<LitTexel>& all, std::uint32_t o
 }
 
 std::uint32_t addRectangle(scene::Scene& scene, vec3 center, vec3 a, vec3 b) {
-  scene::Mesh mesh;
-  mesh.positions = {center - a - b, center + a - b, center + a + b, center - a + b};
-  mesh.normals.assign(4, glm::normalize(glm::cross(a, b)));
-  mesh.texCoords[0] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
-  mesh.indices = {0, 1, 2, 0, 2, 3};
-  for (const vec3& p : mesh.positions) mesh.bounds.grow(p);
-  scene::Object object;
-  object.node = addNode(scene, "rectangle", mat4(1.f));
-  object.mesh = static_cast<std::uint32_t>(scene.meshes.size());
-  object.material = static_cast<std::uint32_t>(scene.materials.size()) - 1;
-  scene.meshes.push_back(std::move(mesh));
-  scene.objects.push_back(object);
-  updateTransforms(scene);
+  trace::testing::addSquare(scene, center, a, b);
   return static_cast<std::uint32_t>(scene.objects.size()) - 1;
 }
 
@@ -105,21 +94,6 @@ scene::Material& addSurface(scene::Scene& scene, vec3 radiance) {
   material.emissive = radiance;
   scene.materials.push_back(material);
   return scene.materials.back();
-}
-
-scene::Light& addLight(scene::Scene& scene, scene::LightKind kind, vec3 at, vec3 along) {
-  const vec3 z = -glm::normalize(along);
-  const vec3 x =
-      glm::normalize(glm::cross(std::abs(z.y) < 0.9f ? vec3(0, 1, 0) : vec3(1, 0, 0), z));
-  scene::Light light;
-  light.kind = kind;
-  light.range = 1000.f;
-  light.outerCone = light.innerCone = 1.5f;
-  light.node =
-      addNode(scene, "light", mat4(vec4(x, 0), vec4(glm::cross(z, x), 0), vec4(z, 0), vec4(at, 1)));
-  scene.lights.push_back(light);
-  updateTransforms(scene);
-  return scene.lights.back();
 }
 
 }  // namespace lucerna::bake::testing

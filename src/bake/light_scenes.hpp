@@ -5,13 +5,9 @@
 
 #include "bake/plan.hpp"
 #include "scene/scene.hpp"
+#include "trace/trace_scenes.hpp"
 
 namespace lucerna::bake::testing {
-
-inline constexpr Sampling kStandard{
-    .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
-inline constexpr Sampling kFinal{
-    .positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f};
 
 struct LitTexel {
   std::uint32_t object = 0;                     // of the scene's
@@ -46,6 +42,6 @@ std::vector<LitTexel> texelsOf(const std::vector<LitTexel>& all, std::uint32_t o
 std::uint32_t addRectangle(scene::Scene& scene, vec3 center, vec3 a, vec3 b);
 // White, Lambertian, one-sided; emits the radiance.
 scene::Material& addSurface(scene::Scene& scene, vec3 radiance = vec3(0.f));
-scene::Light& addLight(scene::Scene& scene, scene::LightKind kind, vec3 at, vec3 along);
+using trace::testing::addLight;
 
 }  // namespace lucerna::bake::testing

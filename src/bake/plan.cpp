@@ -130,7 +130,7 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   if (!places) {
     const float fits = densityThatFits(plan.world, plan.charts, settings);
     if (fits == 0.f) return places.error();
-    return error(places.error().kind, "{}: --density {:.2g} fits", places.error().message, fits);
+    return error(places.error().kind, "{}: --density {:g} fits", places.error().message, fits);
   }
   plan.packed = std::move(*places);
   for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i)
@@ -138,6 +138,8 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   plan.units = shareOut(plan.blocks);
   plan.groups = groupLights(scene, settings.reach);
   LUCERNA_TRY_VOID(choose(plan));
+  if (!plan.alwaysOn && settings.sky != vec3(0.f))
+    plan.warnings.emplace_back("--sky is always on: it is baked if --lights names always-on");
   if (plan.alwaysOn)
     std::ranges::copy(skyLights(settings.sky, settings.skyDirections),
                       std::back_inserter(plan.groups[0].lights));
@@ -158,6 +160,14 @@ vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point) {
 
 float irradianceOfWhite(const scene::Scene& scene) {
   return kPi * std::exp2(-scene.exposure);
+}
+
+std::size_t lightCount(const Plan& plan) {
+  std::size_t count = 0;
+  for (const LightGroup& group : plan.groups)
+    count += static_cast<std::size_t>(std::ranges::count_if(
+        group.lights, [](const scene::PlacedLight& light) { return light.light != scene::kNone; }));
+  return count;
 }
 
 lightmap::Layout layoutOf(const Plan& plan) {

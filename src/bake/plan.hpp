@@ -21,11 +21,18 @@ enum class Engine { Embree, Octree };
 
 // How finely light is sampled.
 struct Sampling {
-  int positions = 1;          // along each side of a texel
-  int finePositions = 0;      // the same of texels at the edges of shadows; 0: no others
-  int lightSamples = 4;       // points on a light with a size, see LighterSettings
-  float emitterSize = 0.25f;  // of an emitting surface for one ray / its distance
+  int positions;      // along each side of a texel
+  int finePositions;  // the same of texels at the edges of shadows; 0: no others
+  int lightSamples;   // points on a light with a size, see LighterSettings
+  float emitterSize;  // of an emitting surface for one ray / its distance
 };
+// The presets of `lucerna bake`.
+inline constexpr Sampling kPreview{
+    .positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f};
+inline constexpr Sampling kStandard{
+    .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
+inline constexpr Sampling kFinal{
+    .positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f};
 
 // Of maps, beside their masters.
 enum class Encoding { Rgb9e5, Bc6h, Png };
@@ -34,7 +41,7 @@ struct BakeSettings {
   Unwrap unwrap = Unwrap::Charts;
   float density = 10.f;  // texels a metre
   PackSettings pack;
-  Sampling sampling;
+  Sampling sampling = kStandard;
   float reach = std::numeric_limits<float>::infinity();  // m that lights reach at most
   // An emitting surface reaches to where it gives a white one no more than this brightness at the
   // scene's exposure; 0: as far as `reach`.
@@ -81,6 +88,9 @@ vec2 placed(const Plan& plan, std::uint32_t chart, vec2 point);
 
 // The irradiance that a white surface shows as white at the scene's exposure.
 float irradianceOfWhite(const scene::Scene& scene);
+
+// The scene's lights among all, the sky's left out.
+std::size_t lightCount(const Plan& plan);
 
 lightmap::Layout layoutOf(const Plan& plan);
 

@@ -18,14 +18,13 @@ constexpr double kLeastAdded = 1e-4;
 // Irradiance and brightness: what a white surface shows at the scene's exposure.
 class Light {
  public:
-  explicit Light(const scene::Scene& scene) : white_(kPi * std::exp2(double{-scene.exposure})) {}
+  explicit Light(const scene::Scene& scene) : white_(irradianceOfWhite(scene)) {}
 
   dvec3 brightness(const std::uint16_t* rgb) const {
     return dvec3(floatFromHalf(rgb[0]), floatFromHalf(rgb[1]), floatFromHalf(rgb[2])) / white_;
   }
   std::array<std::uint16_t, 3> halves(dvec3 brightness) const {
-    constexpr double kLargestHalf = 65504.;
-    const vec3 e(glm::min(brightness * white_, kLargestHalf));
+    const vec3 e(glm::min(brightness * white_, double{kLargestHalf}));
     return {halfFromFloat(e.x), halfFromFloat(e.y), halfFromFloat(e.z)};
   }
 

@@ -13,8 +13,6 @@
 namespace lucerna::bake {
 namespace {
 
-constexpr float kLargestHalf = 65504.f;
-
 // Of lights so strong that their sum is no number nothing is stored.
 float storable(float irradiance) {
   return std::isfinite(irradiance) ? std::min(irradiance, kLargestHalf) : 0.f;

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <optional>
 
-#include "core/file.hpp"
-#include "core/hash.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "image/image_file.hpp"
 #include "lightmap/gltf_copy.hpp"
+#include "lightmap/lightmap.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -22,8 +21,7 @@ std::string pictureName(std::size_t map) {
 
 Result<FileEntry> writePicture(const Image& map, const fs::path& folder, const std::string& name) {
   LUCERNA_TRY(bytes, encodeImage(folder / name, converted(map, ComponentType::F32, 3)));
-  LUCERNA_TRY_VOID(writeFile(folder / name, bytes));
-  return FileEntry{.file = name, .hash = lightmap::hashText16(hashBytes(bytes))};
+  return lightmap::writeEntry(folder, name, bytes);
 }
 
 Status writePictures(const BakedLight& baked, const fs::path& folder,
@@ -49,7 +47,8 @@ Status writeGltf(const Plan& plan, const BakedLight& baked, const lightmap::Layo
   for (std::size_t i = 0; i < baked.maps.size(); ++i)
     pictures.push_back({.file = pictureName(i), .intensity = 1.f});
   std::vector<std::uint32_t> lights;
-  for (const scene::PlacedLight& light : plan.groups[0].lights) lights.push_back(light.light);
+  for (const scene::PlacedLight& light : plan.groups[0].lights)
+    if (light.light != scene::kNone) lights.push_back(light.light);
   LUCERNA_TRY(copy, lightmap::writeGltfCopy(*plan.world.scene, layout, std::move(pictures), lights,
                                             folder));
   for (const std::string& note : copy.notes) log::info("scene.gltf: {}", note);

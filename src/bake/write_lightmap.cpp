@@ -14,7 +14,7 @@
 #include "image/image_file.hpp"
 #include "image/ktx2.hpp"
 #include "lightmap/geometry_hash.hpp"
-#include "lightmap/manifest.hpp"
+#include "lightmap/lightmap.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -23,11 +23,7 @@ namespace fs = std::filesystem;
 using lightmap::FileEntry;
 using lightmap::Manifest;
 
-Result<FileEntry> write(const fs::path& folder, const std::string& name,
-                        std::span<const std::byte> bytes) {
-  LUCERNA_TRY_VOID(writeFile(folder / name, bytes));
-  return FileEntry{.file = name, .hash = lightmap::hashText16(hashBytes(bytes))};
-}
+constexpr const char *kManifestFile = "manifest.json", *kLayoutFile = "layout.bin";
 
 vec3 largestOf(const Image& map) {
   vec3 largest(0.f);
@@ -56,17 +52,17 @@ Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding enc
                                const fs::path& folder, float white) {
   switch (encoding) {
     case Encoding::Rgb9e5:
-      return write(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
-                   encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
+      return lightmap::writeEntry(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
+                                  encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
     case Encoding::Bc6h:
-      return write(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
-                   encodeKtx2({&map, 1}, HdrFormat::Bc6h));
+      return lightmap::writeEntry(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
+                                  encodeKtx2({&map, 1}, HdrFormat::Bc6h));
     case Encoding::Png:
       break;
   }
   const std::string name = fmt::format("map-{:03}.png", index);
   LUCERNA_TRY(bytes, encodeImage(folder / name, pictureOf(map, white)));
-  return write(folder, name, bytes);
+  return lightmap::writeEntry(folder, name, bytes);
 }
 
 Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, std::size_t index,
@@ -74,7 +70,7 @@ Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, s
   const std::string name = fmt::format("map-{:03}.exr", index);
   LUCERNA_TRY(bytes, encodeImage(folder / name, baked.maps[index]));
   lightmap::MapEntry entry;
-  LUCERNA_TRY(master, write(folder, name, bytes));
+  LUCERNA_TRY(master, lightmap::writeEntry(folder, name, bytes));
   entry.master = std::move(master);
   for (const Encoding encoding : plan.settings.encodings) {
     LUCERNA_TRY(encoded, writeEncoded(baked.maps[index], index, encoding, folder,
@@ -138,11 +134,10 @@ MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<
                     {.light = white / 1024.f, .black = white / 16384.f});
 }
 
-Status writePatches(const Plan& plan, const BakedLight& baked, const fs::path& folder,
-                    Manifest& manifest) {
+Status writePatches(const Plan& plan, const BakedLight& baked, const lightmap::Layout& layout,
+                    const fs::path& folder, Manifest& manifest) {
   if (plan.groups.size() < 2) return {};
   const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
-  const lightmap::Layout layout = layoutOf(plan);
   const PatchMaker maker(layout, used);
   const float white = irradianceOfWhite(*plan.world.scene);
   std::vector<MadePatch> made(plan.groups.size());
@@ -153,7 +148,8 @@ Status writePatches(const Plan& plan, const BakedLight& baked, const fs::path& f
   for (std::size_t i = 1; i < made.size(); ++i) {
     lightmap::PatchEntry entry;
     entry.group = plan.groups[i].name;
-    LUCERNA_TRY(file, write(folder, fmt::format("patch-{:03}.bin", i - 1), made[i].bytes));
+    LUCERNA_TRY(file,
+                lightmap::writeEntry(folder, fmt::format("patch-{:03}.bin", i - 1), made[i].bytes));
     entry.patch = std::move(file);
     entry.form = made[i].patch.form();
     entry.bytes = made[i].bytes.size();
@@ -191,44 +187,44 @@ void describeScene(const Plan& plan, Manifest& manifest) {
             {.name = scene.lights[light.light].name, .group = group.name, .light = light.light});
 }
 
-std::set<std::string> namesIn(const Manifest& manifest) {
-  std::set<std::string> names{"manifest.json"};
+// Removes what the manifest does not name: files of an earlier bake, and of one that was killed.
+void removeOthers(const fs::path& folder, const Manifest& manifest) {
+  std::set<std::string> names{kManifestFile};
   for (const FileEntry& entry : lightmap::filesOf(manifest)) names.insert(entry.file);
-  return names;
-}
-
-// What an earlier bake left in the folder: names that its manifest gives, and ours does not.
-void removeOthers(const fs::path& folder, const std::set<std::string>& before,
-                  const std::set<std::string>& now) {
   std::error_code ignored;
-  for (const std::string& name : before)
-    if (!now.contains(name)) fs::remove(folder / name, ignored);
-}
-
-std::set<std::string> namesBefore(const fs::path& folder) {
-  const Result<std::string> text = readText(folder / "manifest.json");
-  if (!text) return {};
-  const Result<Manifest> manifest = lightmap::manifestFrom(*text, "manifest.json");
-  return manifest ? namesIn(*manifest) : std::set<std::string>();
+  std::vector<fs::path> others;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (const std::string name = entry.path().filename().string();
+        isLightmapFile(name) && !names.contains(name))
+      others.push_back(entry.path());
+  for (const fs::path& other : others) fs::remove(other, ignored);
 }
 
 }  // namespace
 
+bool isLightmapFile(const std::string& name) {
+  const auto isNumbered = [&](std::string_view start) {
+    return name.starts_with(start) && name.size() > start.size() && name[start.size()] >= '0' &&
+           name[start.size()] <= '9';
+  };
+  return name == kManifestFile || name == kLayoutFile || name == "scene.gltf" ||
+         name == "scene.bin" || isNumbered("map-") || isNumbered("patch-") || isNumbered("tex-");
+}
+
 Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& folder,
                      std::uint64_t& texels) {
-  const std::set<std::string> before = namesBefore(folder);
   Manifest manifest;
   describeScene(plan, manifest);
   const lightmap::Layout layout = layoutOf(plan);
-  LUCERNA_TRY(entry, write(folder, "layout.bin", lightmap::toBytes(layout)));
+  LUCERNA_TRY(entry, lightmap::writeEntry(folder, kLayoutFile, lightmap::toBytes(layout)));
   manifest.layout = std::move(entry);
   LUCERNA_TRY_VOID(writeMaps(plan, baked, folder, manifest));
-  LUCERNA_TRY_VOID(writePatches(plan, baked, folder, manifest));
+  LUCERNA_TRY_VOID(writePatches(plan, baked, layout, folder, manifest));
   LUCERNA_TRY_VOID(writeGltf(plan, baked, layout, folder, manifest.gltf));
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
-  LUCERNA_TRY_VOID(writeText(folder / "manifest.json", lightmap::toJson(manifest)));
-  removeOthers(folder, before, namesIn(manifest));
+  LUCERNA_TRY_VOID(writeText(folder / kManifestFile, lightmap::toJson(manifest)));
+  removeOthers(folder, manifest);
   return {};
 }
 

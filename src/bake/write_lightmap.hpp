@@ -8,9 +8,13 @@
 
 namespace lucerna::bake {
 
-// Every file is whole or not there; the manifest comes last, and then files of an earlier bake that
-// it does not name are removed. texels: how many lie on the scene, for the report.
+// Every file is whole or not there; the manifest comes last, and then files of a bake that it does
+// not name are removed: of an earlier one, or of one that was killed. texels: how many lie on the
+// scene, for the report.
 Status writeLightmap(const Plan& plan, const BakedLight& baked, const std::filesystem::path& folder,
                      std::uint64_t& texels);
+
+// Whether a file may be one of a bake's, by its name.
+bool isLightmapFile(const std::string& name);
 
 }  // namespace lucerna::bake

@@ -12,7 +12,7 @@
 
 namespace lucerna {
 
-inline constexpr float kLargestBc6h = 65504.f;  // the largest half
+inline constexpr float kLargestBc6h = kLargestHalf;
 
 using Bc6hBlock = std::array<std::byte, 16>;
 // Row by row: red, green, blue as half bits of numbers from 0 to kLargestBc6h (0x7bff).

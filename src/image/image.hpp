@@ -69,6 +69,7 @@ Image converted(const Image& image, ComponentType type, int channels);
 Image flippedVertically(const Image& image);
 float srgbFromLinear(float linear);  // clamps to [0, 1]
 float linearFromSrgb(float srgb);
+inline constexpr float kLargestHalf = 65504.f;
 std::uint16_t halfFromFloat(float value);
 float floatFromHalf(std::uint16_t bits);
 

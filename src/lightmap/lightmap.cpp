@@ -34,6 +34,17 @@ Result<Manifest> readManifest(const std::filesystem::path& folder) {
   return manifestFrom(text, path.string());
 }
 
+Status checkEntries(const std::filesystem::path& folder, std::span<const FileEntry> entries) {
+  for (const FileEntry& entry : entries) LUCERNA_TRY_VOID(checkEntry(folder, entry));
+  return {};
+}
+
+Result<FileEntry> writeEntry(const std::filesystem::path& folder, const std::string& name,
+                             std::span<const std::byte> bytes) {
+  LUCERNA_TRY_VOID(writeFile(folder / name, bytes));
+  return FileEntry{.file = name, .hash = hashText16(hashBytes(bytes))};
+}
+
 Result<Layout> readLayout(const std::filesystem::path& folder, const Manifest& manifest) {
   LUCERNA_TRY(bytes, readEntry(folder, manifest.layout));
   LUCERNA_TRY(layout, layoutFrom(bytes, (folder / manifest.layout.file).string()));

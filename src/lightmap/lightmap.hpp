@@ -32,5 +32,10 @@ Result<Image> readMap(const std::filesystem::path& folder, const Manifest& manif
 // One file of the folder, if its hash is right.
 Result<Bytes> readEntry(const std::filesystem::path& folder, const FileEntry& entry);
 Status checkEntry(const std::filesystem::path& folder, const FileEntry& entry);
+Status checkEntries(const std::filesystem::path& folder, std::span<const FileEntry> entries);
+
+// Writes a file of the folder, whole or not at all.
+Result<FileEntry> writeEntry(const std::filesystem::path& folder, const std::string& name,
+                             std::span<const std::byte> bytes);
 
 }  // namespace lucerna::lightmap

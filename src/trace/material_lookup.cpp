@@ -40,13 +40,6 @@ vec3 unitOr(vec3 v, vec3 otherwise) {
   return length > 1e-30f ? v / length : otherwise;
 }
 
-// KHR_texture_transform: offset + rotate(scale * uv), counter-clockwise with v pointing down.
-vec2 transformed(const TextureSlot& slot, vec2 uv) {
-  const vec2 scaled = slot.scale * uv;
-  const float c = std::cos(slot.rotation), s = std::sin(slot.rotation);
-  return slot.offset + vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y);
-}
-
 bool hasAlpha(const scene::Texture& texture) {
   return texture.image->channels() == 2 || texture.image->channels() == 4;
 }
@@ -230,6 +223,12 @@ SurfacePoint MaterialLookup::at(const Spot& spot, vec3 directionW) const {
         std::max(1.f - std::max({point.specular.x, point.specular.y, point.specular.z}), 0.f);
   }
   return point;
+}
+
+vec2 transformed(const TextureSlot& slot, vec2 uv) {
+  const vec2 scaled = slot.scale * uv;
+  const float c = std::cos(slot.rotation), s = std::sin(slot.rotation);
+  return slot.offset + vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y);
 }
 
 bool isHole(const MaterialLookup& lookup, const Spot& spot) {

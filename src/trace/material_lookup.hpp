@@ -57,6 +57,10 @@ class MaterialLookup {
   std::vector<mat3> normalMatrices_;  // of each object
 };
 
+// KHR_texture_transform of the slot: offset + rotate(scale * uv), counter-clockwise with v pointing
+// down.
+vec2 transformed(const scene::TextureSlot& slot, vec2 uv);
+
 // Whether an alpha test leaves nothing there.
 bool isHole(const MaterialLookup& lookup, const Spot& spot);
 

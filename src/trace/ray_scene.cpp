@@ -36,6 +36,7 @@ struct Context {
   // Of the packet under way, one a lane.
   vec3* shares = nullptr;
   std::span<const Passed> passed;
+  std::span<int> counts;
 };
 
 Spot spotOf(RTCHitN* hit, unsigned count, unsigned lane) {
@@ -63,6 +64,25 @@ void passedFilter(const RTCFilterFunctionNArguments* args) {
     if (context.passed[id].has(RTCHitN_instID(args->hit, args->N, lane, 0),
                                RTCHitN_primID(args->hit, args->N, lane)))
       args->valid[lane] = 0;
+  }
+}
+
+// Of all geometry: counts what is met, and lets all rays on.
+void countFilter(const RTCFilterFunctionNArguments* args) {
+  const Context& context = *reinterpret_cast<const Context*>(args->context);
+  for (unsigned lane = 0; lane < args->N; ++lane) {
+    if (args->valid[lane] != -1) continue;
+    args->valid[lane] = 0;
+    // Embree 3.13.5 asks about lanes without a ray, too.
+    const unsigned id = RTCRayN_id(args->ray, args->N, lane);
+    if (id >= context.counts.size()) continue;
+    const Spot spot = spotOf(args->hit, args->N, lane);
+    const scene::Material& material = context.lookup.materialOf(spot.object);
+    if (material.doubleSided || material.alphaMode != scene::AlphaMode::Opaque) continue;
+    const vec3 directionW(RTCRayN_dir_x(args->ray, args->N, lane),
+                          RTCRayN_dir_y(args->ray, args->N, lane),
+                          RTCRayN_dir_z(args->ray, args->N, lane));
+    context.counts[id] += context.lookup.frontFacing(spot, directionW) ? -1 : 1;
   }
 }
 
@@ -247,6 +267,25 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<vec3> shares) 
     rtcOccluded16(valid.data(), impl_->top, &context.embree, &packet);
     for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
       shares[first + i] = packet.tfar[i] < 0.f ? vec3(0.f) : through[i];
+  }
+}
+
+void RayScene::solidsAround(std::span<const Ray> rays, std::span<int> counts) const {
+  CHECK(rays.size() == counts.size());
+  std::ranges::fill(counts, 0);
+  Context context(impl_->lookup);
+  context.embree.filter = countFilter;
+  // No material's own filter decides before: the packet is one of closest hits, which none blocks.
+  alignas(64) RTCRayHit16 packet;
+  alignas(64) std::array<int, kPacket> valid;
+  prepare(packet.ray);
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    setRays(packet.ray, rays.subspan(first, count), valid);
+    context.counts = counts.subspan(first, count);
+    std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+    std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+    rtcIntersect16(valid.data(), impl_->top, &context.embree, &packet);
   }
 }
 

@@ -68,6 +68,10 @@ class RayScene {
   // rays lead to a light; one-sided translucent surfaces count where their front faces it.
   void transmittance(std::span<const Ray> rays, std::span<vec3> shares) const;
 
+  // How many more backs than fronts of opaque one-sided surfaces each ray meets, all of them: in a
+  // scene of closed solids, the number of solids that its origin is inside of.
+  void solidsAround(std::span<const Ray> rays, std::span<int> counts) const;
+
   const MaterialLookup& lookup() const;
 
  private:
