@@ -133,11 +133,7 @@ TEST_P(ShadowTracers, PanesMultiply) {
     scene::Scene scene = emptyScene();
     vec3 product(1.f);
     for (int i = 0; i < 5; ++i) {
-      scene::Material& pane = addMaterial(scene);
-      pane.alphaMode = scene::AlphaMode::Blend;
-      pane.albedo.w = 0.1f * static_cast<float>(i + 1);
-      pane.transmission = {1.f, 0.8f, 0.5f};
-      product *= scene::transmittance(pane.albedo.w, pane.transmission);
+      product *= trace::testing::addPane(scene, i);
       addSquare(scene, {0, 0, -1.f + 0.4f * static_cast<float>((i * step) % 5)}, {3, 0, 0},
                 {0, 3, 0});
     }

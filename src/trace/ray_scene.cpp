@@ -193,6 +193,24 @@ struct RayScene::Impl {
     rtcReleaseGeometry(instance);
   }
 
+  // Packet after packet: before(first, count) of the rays, then take(ray, packet, lane) of each.
+  template <typename Before, typename Take>
+  void intersect(std::span<const Ray> rays, Context& context, const Before& before,
+                 const Take& take) const {
+    alignas(64) RTCRayHit16 packet;
+    alignas(64) std::array<int, kPacket> valid;
+    prepare(packet.ray);
+    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+      const std::size_t count = std::min(kPacket, rays.size() - first);
+      setRays(packet.ray, rays.subspan(first, count), valid);
+      before(first, count);
+      std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+      std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+      rtcIntersect16(valid.data(), top, &context.embree, &packet);
+      for (std::size_t i = 0; i < count; ++i) take(first + i, packet, i);
+    }
+  }
+
   MaterialLookup lookup;
   RTCDevice device;
   RTCScene top = nullptr;
@@ -231,24 +249,19 @@ void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits,
   CHECK(rays.size() == hits.size() && (passed.empty() || passed.size() == rays.size()));
   Context context(impl_->lookup);
   if (!passed.empty()) context.embree.filter = passedFilter;
-  alignas(64) RTCRayHit16 packet;
-  alignas(64) std::array<int, kPacket> valid;
-  prepare(packet.ray);
-  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-    const std::size_t count = std::min(kPacket, rays.size() - first);
-    setRays(packet.ray, rays.subspan(first, count), valid);
-    if (!passed.empty()) context.passed = passed.subspan(first, count);
-    std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-    std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-    rtcIntersect16(valid.data(), impl_->top, &context.embree, &packet);
-    for (std::size_t i = 0; i < count; ++i)
-      hits[first + i] = packet.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                            ? Hit{}
-                            : Hit{.t = packet.ray.tfar[i],
-                                  .spot = {.object = packet.hit.instID[0][i],
-                                           .triangle = packet.hit.primID[i],
-                                           .barycentric = {packet.hit.u[i], packet.hit.v[i]}}};
-  }
+  impl_->intersect(
+      rays, context,
+      [&](std::size_t first, std::size_t count) {
+        if (!passed.empty()) context.passed = passed.subspan(first, count);
+      },
+      [&](std::size_t ray, const RTCRayHit16& packet, std::size_t lane) {
+        hits[ray] = packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID
+                        ? Hit{}
+                        : Hit{.t = packet.ray.tfar[lane],
+                              .spot = {.object = packet.hit.instID[0][lane],
+                                       .triangle = packet.hit.primID[lane],
+                                       .barycentric = {packet.hit.u[lane], packet.hit.v[lane]}}};
+      });
 }
 
 void RayScene::transmittance(std::span<const Ray> rays, std::span<vec3> shares) const {
@@ -275,18 +288,10 @@ void RayScene::solidsAround(std::span<const Ray> rays, std::span<int> counts) co
   std::ranges::fill(counts, 0);
   Context context(impl_->lookup);
   context.embree.filter = countFilter;
-  // No material's own filter decides before: the packet is one of closest hits, which none blocks.
-  alignas(64) RTCRayHit16 packet;
-  alignas(64) std::array<int, kPacket> valid;
-  prepare(packet.ray);
-  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-    const std::size_t count = std::min(kPacket, rays.size() - first);
-    setRays(packet.ray, rays.subspan(first, count), valid);
-    context.counts = counts.subspan(first, count);
-    std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-    std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-    rtcIntersect16(valid.data(), impl_->top, &context.embree, &packet);
-  }
+  impl_->intersect(
+      rays, context,
+      [&](std::size_t first, std::size_t count) { context.counts = counts.subspan(first, count); },
+      [](std::size_t, const RTCRayHit16&, std::size_t) {});
 }
 
 }  // namespace lucerna::trace

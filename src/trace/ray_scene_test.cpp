@@ -148,11 +148,7 @@ TEST(RayScene, PanesMultiply) {
   scene::Scene scene = testing::emptyScene();
   vec3 product(1.f);
   for (int i = 0; i < 5; ++i) {
-    scene::Material& pane = addMaterial(scene);
-    pane.alphaMode = scene::AlphaMode::Blend;
-    pane.albedo.w = 0.1f * static_cast<float>(i + 1);
-    pane.transmission = {1.f, 0.8f, 0.5f};
-    product *= scene::transmittance(pane.albedo.w, pane.transmission);
+    product *= testing::addPane(scene, i);
     addSquare(scene, {0, 0, -1.f - static_cast<float>((i * 2) % 5)}, {1, 0, 0}, {0, 1, 0});
   }
   addMaterial(scene);
@@ -165,6 +161,36 @@ TEST(RayScene, PanesMultiply) {
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(shares[0][c], product[c], 1e-6f);
   EXPECT_EQ(shares[1], vec3(0.f));
   EXPECT_EQ(shares[2], vec3(1.f));
+}
+
+// Backs less fronts of all that is met: boxes within boxes, which do not hide each other. What has
+// two sides and what is seen through are no solids.
+TEST(RayScene, CountsTheSolidsAround) {
+  scene::Scene scene = testing::emptyScene();
+  const auto addBox = [&](float half) {
+    for (int axis = 0; axis < 3; ++axis)
+      for (const float side : {-half, half}) {
+        vec3 n(0.f), a(0.f), b(0.f);
+        n[axis] = a[(axis + 1) % 3] = side;
+        b[(axis + 2) % 3] = half;
+        addSquare(scene, n, a, b);
+      }
+  };
+  addMaterial(scene).doubleSided = false;
+  addBox(1.f);
+  addBox(3.f);
+  addMaterial(scene).doubleSided = true;
+  addBox(2.f);
+  testing::addPane(scene, 1);
+  scene.materials.back().doubleSided = false;
+  addBox(4.f);
+  const RayScene rays(scene, mat4(1.f));
+  std::vector<Ray> asked;
+  std::vector<int> counts(4);
+  for (const float x : {0.5f, 1.5f, 3.5f, -5.f})
+    asked.push_back({.originW = {x, 0.1f, 0.2f}, .directionW = {1.f, 0.03f, 0.02f}});
+  rays.solidsAround(asked, counts);
+  EXPECT_EQ(counts, (std::vector<int>{2, 1, 0, 0}));
 }
 
 }  // namespace

@@ -42,6 +42,14 @@ void addSquare(scene::Scene& scene, vec3 center, vec3 a, vec3 b) {
   updateTransforms(scene);
 }
 
+vec3 addPane(scene::Scene& scene, int i) {
+  scene::Material& pane = addMaterial(scene);
+  pane.alphaMode = scene::AlphaMode::Blend;
+  pane.albedo.w = 0.1f * static_cast<float>(i + 1);
+  pane.transmission = {1.f, 0.8f, 0.5f};
+  return scene::transmittance(pane.albedo.w, pane.transmission);
+}
+
 scene::Light& addLight(scene::Scene& scene, scene::LightKind kind, vec3 at, vec3 along) {
   const vec3 z = -glm::normalize(along);
   const vec3 x =

@@ -212,6 +212,15 @@ class BakeTest(unittest.TestCase):
         self.ok(self.bake("l", *SMALL, "--shard", "2/2"))
         self.ok(self.lucerna("lightmap", "merge", "l"))
         self.assertEqual(self.hashes("l"), plain)
+        # Of a bake with more maps, killed before its manifest: with an older one there, and alone.
+        (self.folder / "l" / "map-009.exr").write_bytes(b"of another")
+        self.ok(self.bake("l", *SMALL))
+        self.assertEqual(self.hashes("l"), plain)
+        os.makedirs(self.folder / "k")
+        (self.folder / "k" / "map-000.exr").write_bytes(b"half")
+        (self.folder / "k" / "patch-009.bin").write_bytes(b"half")
+        self.ok(self.bake("k", *SMALL))
+        self.assertEqual(self.hashes("k"), plain)
 
     def test_finished_is_finished(self):
         plain = self.whole("f", *SMALL)
