@@ -98,9 +98,17 @@ ivec2 coverageSize(std::span<const FlatTriangle> triangles) {
 }
 
 Coverage coverageOf(std::span<const FlatTriangle> triangles) {
-  const ivec2 size = coverageSize(triangles);
+  CHECK(!triangles.empty());
+  return coverageFrom(triangles, boxOf(triangles).low);
+}
+
+Coverage coverageFrom(std::span<const FlatTriangle> triangles, vec2 least) {
+  CHECK(!triangles.empty());
+  const Box box = boxOf(triangles);
+  CHECK(least.x <= box.low.x && least.y <= box.low.y);
+  const ivec2 size(texelsOf(least.x, box.high.x), texelsOf(least.y, box.high.y));
   CHECK(std::max(size.x, size.y) <= kMostTexels, "a chart of {} x {} texels", size.x, size.y);
-  Coverage coverage{.least = boxOf(triangles).low, .mask = TexelMask(size)};
+  Coverage coverage{.least = least, .mask = TexelMask(size)};
   for (const FlatTriangle& triangle : triangles) {
     std::array<Point, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)

@@ -20,17 +20,21 @@ namespace lucerna::bake {
 using FlatTriangle = std::array<vec2, 3>;  // corners in texels, in either winding
 
 // Texel (x, y) of the mask is the square from least + (x, y) to least + (x + 1, y + 1), and the
-// mask is as small as it can be.
+// mask is as small as it can be with that least corner.
 struct Coverage {
-  vec2 least{0.f};  // the chart's least coordinates
+  vec2 least{0.f};
   TexelMask mask;
 };
 
-// Corners are rounded to 1/1024 of a texel from the least coordinates, so that a side of 10.0001
+// From the least coordinates of the triangles.
+// Corners are rounded to 1/1024 of a texel from there, so that a side of 10.0001
 // texels has 10. A texel counts if a triangle and it have an area in common; a triangle that has no
 // area, or lost it by rounding, owns one texel a row at least, so that each chart has texels.
 // triangles: at least one; finite, and no larger than kMostTexels.
 Coverage coverageOf(std::span<const FlatTriangle> triangles);
+
+// The same from another corner, none of whose coordinates is larger: parts of one grid.
+Coverage coverageFrom(std::span<const FlatTriangle> triangles, vec2 least);
 
 // Size of that mask alone, for charts of any size; at most INT_MAX / 2.
 ivec2 coverageSize(std::span<const FlatTriangle> triangles);

@@ -115,7 +115,10 @@ bool areClose(const Chart& chart, const std::vector<std::uint32_t>& islands, int
   std::map<std::uint32_t, std::vector<FlatTriangle>> parts;
   for (std::size_t i = 0; i < islands.size(); ++i) parts[islands[i]].push_back(chart.corners[i]);
   for (const auto& [island, triangles] : parts) {
-    const Coverage coverage = coverageOf(triangles);
+    vec2 low(std::numeric_limits<float>::infinity());
+    for (const FlatTriangle& triangle : triangles)
+      for (const vec2 corner : triangle) low = glm::min(low, corner);
+    const Coverage coverage = coverageFrom(triangles, glm::floor(low));
     const ivec2 least(coverage.least), size = coverage.mask.size();
     for (int y = 0; y < size.y; ++y)
       for (int x = 0; x < size.x; ++x) {
