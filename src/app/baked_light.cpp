@@ -48,6 +48,14 @@ Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene)
   return {};
 }
 
+// Groups of which the scene has no light on.
+std::vector<std::string> groupsOff(const scene::Scene& scene, const lightmap::Manifest& manifest) {
+  std::vector<std::string> off = groupsOf(manifest);
+  for (const lightmap::LightEntry& entry : manifest.lights)
+    if (scene.lights[entry.light].on) std::erase(off, entry.group);
+  return off;
+}
+
 // Ambient light is in no map. The light that a scene without any is given goes, with its ambient
 // light: the maps have taken its place.
 void switchOffBakedLights(scene::Scene& scene, const lightmap::Manifest& manifest,
@@ -63,23 +71,26 @@ void switchOffBakedLights(scene::Scene& scene, const lightmap::Manifest& manifes
   scene.ambient = vec3(0.f);
 }
 
-}  // namespace
-
+// The maps with all groups' light but that of `off`.
 Result<std::vector<Image>> mapsWith(const lightmap::Lightmap& lightmap,
-                                    const std::vector<std::string>& lightsOff) {
-  LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, lightsOff));
+                                    const std::vector<std::string>& off) {
   LUCERNA_TRY(maps, lightmap::SwitchedMaps::create(lightmap.maps, lightmap.patches));
   for (std::size_t i = 0; i < lightmap.patches.size(); ++i)
-    if (const lightmap::Patch& patch = lightmap.patches[i]; !isAmong(lightsOff, patch.group))
+    if (const lightmap::Patch& patch = lightmap.patches[i]; !isAmong(off, patch.group))
       LUCERNA_TRY_VOID(maps.set(i, patch.color));
   maps.update();
   return maps.maps();
 }
 
+}  // namespace
+
 Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSettings& settings) {
   LUCERNA_TRY(lightmap, lightmap::readLightmap(settings.lightmap));
   LUCERNA_TRY_VOID(checkScene(lightmap, scene));
-  LUCERNA_TRY(maps, mapsWith(lightmap, settings.lightsOff));
+  LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, settings.lightsOff));
+  std::vector<std::string> off = groupsOff(scene, lightmap.manifest);
+  off.insert(off.end(), settings.lightsOff.begin(), settings.lightsOff.end());
+  LUCERNA_TRY(maps, mapsWith(lightmap, off));
   lightmap::placeInMaps(scene, lightmap.layout);
   switchOffBakedLights(scene, lightmap.manifest, settings.lightsOff);
   return maps;

@@ -13,13 +13,9 @@ namespace lucerna::app {
 
 // Reads settings.lightmap, gives the scene's objects their places and switches off the lights whose
 // light is in the maps; their ambient share stays, unless settings.lightsOff names their group.
-// Returns the maps (F32 RGB irradiance). Errors: ErrorKind::Input where the folder is damaged or of
+// Returns the maps (F32 RGB irradiance), without the groups that settings.lightsOff names or of
+// which the scene has no light on. Errors: ErrorKind::Input where the folder is damaged or of
 // another scene, ErrorKind::Usage for groups it does not know.
 Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSettings& settings);
-
-// The maps with all groups' light but that of `lightsOff`. Errors (ErrorKind::Usage): an unknown
-// group, with the choices.
-Result<std::vector<Image>> mapsWith(const lightmap::Lightmap& lightmap,
-                                    const std::vector<std::string>& lightsOff);
 
 }  // namespace lucerna::app

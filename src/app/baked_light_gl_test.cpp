@@ -86,6 +86,20 @@ class BakedFolderTest : public testing::Test {
     writeManifest();
   }
 
+  // A group of all lights that the manifest names, and its light: 1 on the first tile.
+  void addLamps() {
+    for (lightmap::LightEntry& light : manifest_.lights) light.group = "lamps";
+    lightmap::Patch patch{.group = "lamps", .side = kSide, .maps = static_cast<int>(kMaps.size())};
+    patch.tiles.tiles.push_back({.scale = 1.f / 65535.f, .mask = ~std::uint64_t{0}});
+    patch.tiles.values.assign(lightmap::kTileTexels, 65535);
+    const Bytes bytes = toBytes(patch);
+    ASSERT_TRUE(writeFile(folder_ / "patch-000.bin", bytes));
+    manifest_.patches.push_back({.group = "lamps",
+                                 .patch = {"patch-000.bin", lightmap::hashText16(hashBytes(bytes))},
+                                 .form = "tiles"});
+    writeManifest();
+  }
+
   void writeManifest() { ASSERT_TRUE(writeText(folder_ / "manifest.json", toJson(manifest_))); }
 
   // The layers of the picture by name; "": its colour.
@@ -169,14 +183,7 @@ TEST_F(BakedFolderTest, AmbientSharesOfBakedLightsStay) {
 }
 
 TEST_F(BakedFolderTest, AGroupThatIsOffGivesNoAmbientLightEither) {
-  manifest_.lights[0].group = "lamps";
-  const Bytes patch = toBytes(
-      lightmap::Patch{.group = "lamps", .side = kSide, .maps = static_cast<int>(kMaps.size())});
-  ASSERT_TRUE(writeFile(folder_ / "patch-000.bin", patch));
-  manifest_.patches.push_back({.group = "lamps",
-                               .patch = {"patch-000.bin", lightmap::hashText16(hashBytes(patch))},
-                               .form = "tiles"});
-  writeManifest();
+  addLamps();
   settings_.lightsOff = {"lamps"};
   scene_.lights[0].ambientIntensity = 0.25f;
   scene_.ambient = vec3(0.5f);
@@ -188,6 +195,21 @@ TEST_F(BakedFolderTest, AGroupThatIsOffGivesNoAmbientLightEither) {
   EXPECT_EQ(error.kind, ErrorKind::Usage);
   EXPECT_THAT(error.message, HasSubstr("'lamp' is no group of lights in this lightmap (did you "
                                        "mean 'lamps'?); wanted one of lamps"));
+}
+
+TEST_F(BakedFolderTest, AGroupStartsAsTheSceneHasIt) {
+  addLamps();
+  const auto redOfFirst = [&](bool on, std::vector<std::string> off) {
+    scene::Scene scene = scene_;
+    for (scene::Light& light : scene.lights) light.on = on;
+    settings_.lightsOff = std::move(off);
+    const auto maps = takeBakedLight(scene, settings_);
+    EXPECT_TRUE(maps) << maps.error().message;
+    return maps ? maps->front().pixel<float>(0, 0)[0] : 0.f;
+  };
+  EXPECT_FLOAT_EQ(redOfFirst(true, {}), kMaps[0].x + 1.f);
+  EXPECT_FLOAT_EQ(redOfFirst(true, {"lamps"}), kMaps[0].x);
+  EXPECT_FLOAT_EQ(redOfFirst(false, {}), kMaps[0].x);
 }
 
 TEST_F(BakedFolderTest, SaysWhatDoesNotFit) {
