@@ -29,7 +29,7 @@ struct BakeReport {
 };
 
 // Asks before long work. ErrorKind::Usage: DIR/work holds an unfinished part of the same number and
-// `resume` is not set; DIR is a file, or is not empty and holds no lightmap. ErrorKind::Failed: it
+// `resume` is not set; DIR is a file, or holds other files than a lightmap's. ErrorKind::Failed: it
 // cannot be written.
 Status checkFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
 // The same, and makes DIR and DIR/work.

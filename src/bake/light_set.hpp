@@ -13,9 +13,9 @@ struct LightGroup {
   std::vector<scene::PlacedLight> lights;
 };
 
-// The group "" first, even if it is empty, then the others by name. Lights that the scene has
-// switched off take part: groups are for switching. The headlight, which goes with the camera, does
-// not. mostReach: m; no light reaches farther.
+// The group "" first, even if it is empty, then the others by name. Lights of groups take part
+// even where the scene has switched them off: groups are for switching. The headlight, which goes
+// with the camera, does not. mostReach: m; no light reaches farther.
 std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach);
 
 // A sky of one radiance, as directional lights that are spread evenly over all directions. They are

@@ -19,8 +19,7 @@ struct PatchTexel {
 
 struct PatchLight {
   std::string group{};
-  vec3 color{1.f};  // of its lights, linear, times intensity: what is factored out; lights that
-                    // differ: their sum, or 1
+  vec3 color{1.f};  // linear, times intensity: what is factored out, of whatever scale
   std::span<const PatchTexel> texels{};  // by map, row, column; the gap's filled texels, too
 };
 

@@ -67,10 +67,9 @@ struct Plan {
   std::vector<Block> blocks;
   std::vector<Unit> units;
   std::vector<LightGroup> groups;  // [0] is what is always on
+  bool alwaysOn = true;            // lights without a group, and emitting surfaces, are baked
   std::uint64_t hash = 0;          // of everything that the light depends on
   std::vector<std::string> warnings;
-
-  bool alwaysOn = true;  // bakes lights without a group, and emitting surfaces
 
   std::uint64_t texels() const;  // of all charts' rectangles
   // Whether emitting surfaces light others.

@@ -99,8 +99,8 @@ Status writeMaps(const Plan& plan, const BakedLight& baked, const fs::path& fold
   return {};
 }
 
-// What is factored out of a group's light: its lights' common colour; else their sum, which only
-// scales what is stored.
+// What is factored out of a group's light: the mean of its lights, so that what is stored of lights
+// of one colour has none.
 vec3 colorOf(const LightGroup& group) {
   vec3 sum(0.f);
   for (const scene::PlacedLight& light : group.lights) sum += light.intensity;

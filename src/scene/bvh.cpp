@@ -151,6 +151,10 @@ std::uint32_t planesCrossed(const Frustum& frustum, std::uint32_t mask, const Aa
   return crossed;
 }
 
+bool meet(const Aabb& a, const Aabb& b) {
+  return glm::all(glm::lessThanEqual(a.min, b.max)) && glm::all(glm::lessThanEqual(b.min, a.max));
+}
+
 bool passes(const Frustum& frustum, std::uint32_t mask, const Aabb& box) {
   for (std::uint32_t i = 0; i < 6; ++i)
     if ((mask & (1u << i)) && cornerValue<true>(frustum.planes[i], box) < 0) return false;
@@ -316,6 +320,26 @@ void Bvh::query(const Frustum& frustum, std::vector<std::uint32_t>& items) const
       stack[depth++] = {node.first + 1, mask};
       stack[depth++] = {node.first, mask};
     }
+  }
+}
+
+void Bvh::query(const Aabb& box, std::vector<std::uint32_t>& items) const {
+  for (std::size_t i = boundedCount_; i < items_.size(); ++i)
+    if (meet(box, boxes_[i])) items.push_back(items_[i]);
+  if (nodes_.empty()) return;
+  std::array<std::uint32_t, kMaxDepth + 1> stack;
+  std::size_t depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (!meet(box, node.box)) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first + 1;
+      stack[depth++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (meet(box, boxes_[i])) items.push_back(items_[i]);
   }
 }
 

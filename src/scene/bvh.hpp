@@ -25,6 +25,10 @@ class Bvh {
   // deterministic order.
   void query(const Frustum& frustum, std::vector<std::uint32_t>& items) const;
 
+  // Appends the items whose box shares a point with this one, exactly those, in no particular but
+  // deterministic order.
+  void query(const Aabb& box, std::vector<std::uint32_t>& items) const;
+
   // The nearest place where a ray enters or leaves one of the boxes, as the distance in lengths of
   // `direction`; infinity if there is none.
   float firstSide(vec3 origin, vec3 direction) const;

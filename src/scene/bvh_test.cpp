@@ -108,6 +108,33 @@ TEST(Bvh, AgreesWhereBoxesTouchThePlanes) {
   }
 }
 
+TEST(Bvh, FindsExactlyTheBoxesThatABoxMeets) {
+  std::vector<Aabb> boxes = randomBoxes(5000, 5, 50, 3);
+  for (Aabb& box : boxes) box = {glm::round(box.min), glm::round(box.max)};  // some only touch
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  boxes.push_back({vec3(-kInfinity), vec3(kInfinity)});
+  boxes.emplace_back();  // empty
+  Bvh bvh;
+  bvh.build(boxes);
+  Random random(6);
+  std::size_t found = 0;
+  for (int i = 0; i < 200; ++i) {
+    Aabb asked;
+    asked.grow(glm::round(randomPoint(random, 60)));
+    asked.grow(glm::round(randomPoint(random, 60)));
+    std::vector<std::uint32_t> expected, got;
+    for (std::uint32_t k = 0; k < boxes.size(); ++k)
+      if (!boxes[k].empty() && glm::all(glm::lessThanEqual(boxes[k].min, asked.max)) &&
+          glm::all(glm::greaterThanEqual(boxes[k].max, asked.min)))
+        expected.push_back(k);
+    bvh.query(asked, got);
+    std::ranges::sort(got);
+    ASSERT_EQ(got, expected);
+    found += got.size() - 1;
+  }
+  EXPECT_GT(found, 200u);
+}
+
 TEST(Bvh, EveryNodeHoldsItsChildrenAndEveryItemIsInOneLeaf) {
   const std::vector<Aabb> boxes = randomBoxes(3000, 4, 50, 3);
   Bvh bvh;
