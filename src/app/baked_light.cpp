@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <set>
 
+#include "core/log.hpp"
 #include "core/text.hpp"
-#include "lightmap/geometry_hash.hpp"
 #include "lightmap/place.hpp"
+#include "lightmap/scene_hash.hpp"
 #include "lightmap/switching.hpp"
 
 namespace lucerna::app {
@@ -34,11 +35,18 @@ Status checkGroups(const lightmap::Manifest& manifest, const std::vector<std::st
 
 Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene) {
   LUCERNA_TRY_VOID(lightmap::checkFits(lightmap.layout, scene));
-  for (const lightmap::LightEntry& light : lightmap.manifest.lights)
+  for (const lightmap::LightEntry& light : lightmap.manifest.lights) {
     if (light.light >= scene.lights.size())
       return error(ErrorKind::Input,
                    "the lightmap knows light {}, '{}', and '{}' has {} lights; bake it again",
                    light.light, light.name, scene.name, scene.lights.size());
+    const scene::Light& now = scene.lights[light.light];
+    if (now.name != light.name || now.group != light.group)
+      return error(ErrorKind::Input,
+                   "light {} of '{}' is '{}' of group '{}', and when the lightmap was baked it was "
+                   "'{}' of group '{}'; bake it again",
+                   light.light, scene.name, now.name, now.group, light.name, light.group);
+  }
   const std::string& wanted = lightmap.manifest.geometryHash;
   if (!wanted.empty() && wanted != lightmap::hashText16(lightmap::geometryHash(scene)))
     return error(ErrorKind::Input,
@@ -46,6 +54,26 @@ Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene)
                  "again",
                  scene.name);
   return {};
+}
+
+// Whether the light is another one than when it was baked, on or off aside where it can be
+// switched.
+bool hasChanged(const scene::Scene& scene, const lightmap::LightEntry& entry) {
+  if (entry.group.empty() && !scene.lights[entry.light].on) return true;
+  return !entry.hash.empty() &&
+         entry.hash != lightmap::hashText16(lightmap::lightHash(scene, entry.light));
+}
+
+void warnOfChangedLights(const scene::Scene& scene, const lightmap::Manifest& manifest) {
+  std::vector<std::string> names;
+  for (const lightmap::LightEntry& entry : manifest.lights)
+    if (hasChanged(scene, entry)) names.push_back(entry.name);
+  if (names.empty()) return;
+  log::warning(
+      "{} of the {} lights of the lightmap have changed since it was baked, {}the first; "
+      "it shows them as they were: bake it again",
+      names.size(), manifest.lights.size(),
+      names.front().empty() ? "one without a name " : fmt::format("'{}' ", names.front()));
 }
 
 // Groups of which the scene has no light on.
@@ -88,6 +116,7 @@ Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSetti
   LUCERNA_TRY(lightmap, lightmap::readLightmap(settings.lightmap));
   LUCERNA_TRY_VOID(checkScene(lightmap, scene));
   LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, settings.lightsOff));
+  warnOfChangedLights(scene, lightmap.manifest);
   std::vector<std::string> off = groupsOff(scene, lightmap.manifest);
   off.insert(off.end(), settings.lightsOff.begin(), settings.lightsOff.end());
   LUCERNA_TRY(maps, mapsWith(lightmap, off));

@@ -11,6 +11,7 @@
 #include "core/hash.hpp"
 #include "core/test_folder.hpp"
 #include "image/image_file.hpp"
+#include "lightmap/scene_hash.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::app {
@@ -89,6 +90,7 @@ class BakedFolderTest : public testing::Test {
   // A group of all lights that the manifest names, and its light: 1 on the first tile.
   void addLamps() {
     for (lightmap::LightEntry& light : manifest_.lights) light.group = "lamps";
+    for (scene::Light& light : scene_.lights) light.group = "lamps";
     lightmap::Patch patch{.group = "lamps", .side = kSide, .maps = static_cast<int>(kMaps.size())};
     patch.tiles.tiles.push_back({.scale = 1.f / 65535.f, .mask = ~std::uint64_t{0}});
     patch.tiles.values.assign(lightmap::kTileTexels, 65535);
@@ -210,6 +212,22 @@ TEST_F(BakedFolderTest, AGroupStartsAsTheSceneHasIt) {
   EXPECT_FLOAT_EQ(redOfFirst(true, {}), kMaps[0].x + 1.f);
   EXPECT_FLOAT_EQ(redOfFirst(true, {"lamps"}), kMaps[0].x);
   EXPECT_FLOAT_EQ(redOfFirst(false, {}), kMaps[0].x);
+}
+
+TEST_F(BakedFolderTest, SaysWhichLightsHaveChanged) {
+  manifest_.lights[0].hash = lightmap::hashText16(lightmap::lightHash(scene_, 0));
+  writeManifest();
+  const auto said = [&] {
+    scene::Scene scene = scene_;
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(takeBakedLight(scene, settings_));
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said(), "");
+  scene_.lights[0].color.x *= 0.5f;
+  EXPECT_THAT(said(), HasSubstr("1 of the 1 lights of the lightmap have changed"));
+  scene_.lights[0].name = "another";
+  EXPECT_THAT(errorOf().message, HasSubstr("light 0 of"));
 }
 
 TEST_F(BakedFolderTest, SaysWhatDoesNotFit) {

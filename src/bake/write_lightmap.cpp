@@ -13,8 +13,8 @@
 #include "core/progress.hpp"
 #include "image/image_file.hpp"
 #include "image/ktx2.hpp"
-#include "lightmap/geometry_hash.hpp"
 #include "lightmap/lightmap.hpp"
+#include "lightmap/scene_hash.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -184,7 +184,10 @@ void describeScene(const Plan& plan, Manifest& manifest) {
     for (const scene::PlacedLight& light : group.lights)
       if (light.light != scene::kNone)
         manifest.lights.push_back(
-            {.name = scene.lights[light.light].name, .group = group.name, .light = light.light});
+            {.name = scene.lights[light.light].name,
+             .group = group.name,
+             .light = light.light,
+             .hash = lightmap::hashText16(lightmap::lightHash(scene, light.light))});
 }
 
 // Removes what the manifest does not name: files of an earlier bake, and of one that was killed.

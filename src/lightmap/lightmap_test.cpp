@@ -68,7 +68,7 @@ Manifest smallManifest() {
                        .bytes = 10,
                        .otherBytes = 20}},
           .objects = {{.node = "box", .object = 3, .charts = 6, .maps = {0}}},
-          .lights = {{.name = "lamp", .group = "lamps", .light = 4}},
+          .lights = {{.name = "lamp", .group = "lamps", .light = 4, .hash = hashText16(9)}},
           .gltf = {{"scene.gltf", hashText16(6)}, {"scene.bin", hashText16(7)}}};
 }
 
@@ -87,6 +87,7 @@ TEST(Manifest, TextAndBack) {
   EXPECT_EQ(back->patches.at(0).otherBytes, 20u);
   EXPECT_EQ(back->objects.at(0).maps, std::vector<int>{0});
   EXPECT_EQ(back->lights.at(0).light, 4u);
+  EXPECT_EQ(back->lights.at(0).hash, hashText16(9));
   ASSERT_EQ(back->gltf.size(), 2u);
   EXPECT_EQ(back->gltf[0].file, "scene.gltf");
   EXPECT_EQ(back->gltf[1].hash, hashText16(7));

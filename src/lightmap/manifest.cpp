@@ -50,6 +50,7 @@ Json json(const LightEntry& light) {
   Json result = {{"light", light.light}};
   addText(result, "name", light.name);
   addText(result, "group", light.group);
+  addText(result, "hash", light.hash);
   return result;
 }
 
@@ -128,10 +129,11 @@ void readEntry(const JsonValue& value, ObjectEntry& object) {
 }
 
 void readEntry(const JsonValue& value, LightEntry& light) {
-  if (!value.object({"light", "name", "group"})) return;
+  if (!value.object({"light", "name", "group", "hash"})) return;
   readIndex(value, "light", light.light);
   value.read("name", light.name);
   value.read("group", light.group);
+  value.read("hash", light.hash);
 }
 
 template <typename T>

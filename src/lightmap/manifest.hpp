@@ -39,12 +39,13 @@ struct ObjectEntry {
 struct LightEntry {
   std::string name, group;
   std::uint32_t light = 0;  // index in Scene::lights
+  std::string hash{};       // of its light (lightmap/scene_hash.hpp); "": not known
 };
 
 struct Manifest {
   std::string scene;         // its name
   std::string sceneHash;     // of everything in it that the light depends on, and the settings
-  std::string geometryHash;  // of its objects' shapes (lightmap/geometry_hash.hpp); "": not known
+  std::string geometryHash;  // of its objects' shapes (lightmap/scene_hash.hpp); "": not known
   std::string settings;      // of the bake, as one JSON object's text
   std::string processor;     // instruction set that the rays were followed with
   int side = 0;              // texels of a map
