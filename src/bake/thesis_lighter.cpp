@@ -12,13 +12,11 @@ namespace {
 using scene::LightKind;
 using scene::PlacedLight;
 
-// Whether the light reaches any place in the box.
-bool reaches(const PlacedLight& light, const Aabb& boxW) {
-  if (light.kind == LightKind::Directional) return true;
-  const vec3 p = light.positionW;
+// Whether the light of a cell reaches any place in the box.
+bool reaches(const PlacedLight& cell, const Aabb& boxW) {
+  const vec3 p = cell.positionW;
   const vec3 off = glm::max(glm::max(boxW.min - p, p - boxW.max), vec3(0.f));
-  const float reach = light.reach + light.radius;
-  return glm::dot(off, off) < reach * reach;
+  return glm::dot(off, off) < cell.reach * cell.reach;
 }
 
 // What of the point's intensity a place gets where nothing is in the way. What gives nothing is
@@ -27,14 +25,14 @@ float weightAt(const LightPoint& point, vec3 placeW, vec3 normalW) {
   const PlacedLight& light = point.light;
   if (light.kind == LightKind::Directional)
     return std::max(-glm::dot(normalW, light.directionW), 0.f);
+  const vec3 toCentre = point.centreW - placeW;
+  const float squared = glm::dot(toCentre, toCentre);
+  if (squared >= light.reach * light.reach) return 0.f;
   const vec3 to = light.positionW - placeW;
   const float cosine = glm::dot(normalW, to);
   if (cosine <= 0.f) return 0.f;
   const float along = -glm::dot(light.directionW, to);
   if (light.kind == LightKind::Spot && light.cosOuter >= 0.f && along <= 0.f) return 0.f;
-  const vec3 toCentre = point.centreW - placeW;
-  const float squared = glm::dot(toCentre, toCentre);
-  if (squared >= light.reach * light.reach) return 0.f;
   const float distance = std::max(std::sqrt(squared), 1e-6f);
   const float cone = scene::coneFactor(light, along / std::max(glm::length(to), 1e-6f));
   if (cone <= 0.f) return 0.f;
@@ -97,7 +95,6 @@ void ThesisLighter::lightBy(const Samples& s, const Part& part, const LightPoint
 void ThesisLighter::lightPart(const Samples& samples, const Part& part,
                               std::span<const PlacedLight> lights, bool emitters) {
   for (const PlacedLight& light : lights) {
-    if (!reaches(light, part.boundsW)) continue;
     const int points = hasSize(light) ? settings_.lightSamples : 1;
     if (points == 1) {
       lightBy(samples, part, middleOf(light), 1.f);

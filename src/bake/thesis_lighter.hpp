@@ -17,8 +17,9 @@ namespace lucerna::bake {
 // Every cell as a light by itself, whatever its distance.
 std::vector<scene::PlacedLight> cellLights(const Emitters& emitters, const scene::Scene& scene);
 
-// Triangle by triangle and light by light, lights that do not reach the triangle left out; then
-// sample by sample: shaded, and one ray if that gives anything. A light with a size, which the
+// Triangle by triangle, light by light and sample by sample: those beyond the light's reach are
+// skipped, the others shaded, and one ray is followed if that gives anything. Of surfaces that
+// shine cells that do not reach the triangle are left out before. A light with a size, which the
 // thesis has none of, is as many lights as LighterSettings::lightSamples. One thread's.
 class ThesisLighter final : public Lighter {
  public:

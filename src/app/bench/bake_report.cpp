@@ -80,7 +80,7 @@ Table cpuTable(const Results& results) {
               .head = {"scene", "lights", "places to light, both", "Embree, shading",
                        "Embree, rays", "Embree, all of it", "octree, shading", "octree, rays",
                        "octree, all of it (extrapolated)", "from % of the pairs",
-                       "octree / Embree, all of it", "without the places",
+                       "octree / Embree, all of it", "octree / Embree, light alone",
                        "Embree, shading and rays, extrapolated likewise"}};
   for (const Measurement* m : allOf(results, {kLight})) {
     const Expected octree = expected(results, kOctree, m->name);

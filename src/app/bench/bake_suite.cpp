@@ -204,11 +204,12 @@ double sumOf(std::span<const double> values) {
 
 // One engine's work on each unit of a sample.
 struct Sample {
-  std::vector<double> seconds, shading, tracing, rays;
+  std::vector<double> seconds, shading, tracing, pairs, rays;
   void add(const Cost& cost) {
     seconds.push_back(cost.all());
     shading.push_back(cost.shading);
     tracing.push_back(cost.tracing);
+    pairs.push_back(cost.pairs);
     rays.push_back(cost.rays);
   }
 };
@@ -228,6 +229,7 @@ void addEstimate(Measurement& m, const std::string& name, const Estimate& estima
 void addEngine(Measurement& m, const Sample& sample, const Sizes& sizes) {
   m.add(1e3 * sumOf(sample.seconds), 1e3 * sumOf(sample.seconds));
   m.count("units", static_cast<double>(sample.seconds.size()));
+  m.count("pairs", sumOf(sample.pairs));
   m.count("rays", sumOf(sample.rays));
   m.count("tracing_s", sumOf(sample.tracing));
   m.count("shading_s", sumOf(sample.shading));
