@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "bake/seconds.hpp"
 #include "core/check.hpp"
-#include "trace/light_sampling.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -26,69 +24,6 @@ float distanceTo(const Aabb& box, vec3 p) {
 // The size of the light, seen as a ball around its place.
 float ballOf(const PlacedLight& light) {
   return light.kind == LightKind::Directional ? 0.f : light.radius;
-}
-
-// From the middle of a sphere to its surface.
-float ballAhead(const PlacedLight& light) {
-  return light.kind == LightKind::Point ? light.radius : 0.f;
-}
-
-bool hasSize(const PlacedLight& light) {
-  return light.kind == LightKind::Directional ? light.angle > 0.f : light.radius > 0.f;
-}
-
-// A light as a disc: of a spot light; of a sphere, the one that faces the place; of a directional
-// light, a cone of directions.
-class Disc {
- public:
-  Disc(const PlacedLight& light, vec3 placeW) : light_(light), frame_(axisOf(light, placeW)) {}
-
-  // p: of the unit disc.
-  LightPoint at(vec2 p) const {
-    LightPoint point{.light = light_, .centreW = light_.positionW};
-    point.light.radius = point.light.angle = 0.f;
-    const float squared = std::min(glm::dot(p, p), 1.f);
-    if (light_.kind == LightKind::Directional) {
-      // Uniform in solid angle, and as bright as trace/light_sampling.hpp.
-      const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
-      const float below = squared * (1.f - cosHalf);
-      const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
-      point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
-      point.light.intensity *= 2.f / (1.f + cosHalf);
-      return point;
-    }
-    point.light.positionW += light_.radius * (frame_.x * p.x + frame_.y * p.y);
-    if (light_.kind == LightKind::Point) {
-      point.ahead = light_.radius * std::sqrt(1.f - squared);
-    } else {
-      point.centreW = point.light.positionW;
-    }
-    return point;
-  }
-
- private:
-  static vec3 axisOf(const PlacedLight& light, vec3 placeW) {
-    if (light.kind == LightKind::Spot) return light.directionW;
-    if (light.kind == LightKind::Directional) return -light.directionW;
-    const vec3 to = placeW - light.positionW;
-    const float distance = glm::length(to);
-    return distance > 0.f ? to / distance : vec3(0.f, 1.f, 0.f);
-  }
-
-  const PlacedLight& light_;
-  trace::Frame frame_;
-};
-
-vec2 onCircle(float radius, float turn) {
-  return radius * vec2(std::cos(2.f * kPi * turn), std::sin(2.f * kPi * turn));
-}
-
-// The i-th of n points that fill the unit disc evenly, seen along any edge too (Vogel, "A Better
-// Way to Construct the Sunflower Head", 1979).
-vec2 spiralPoint(int i, int n) {
-  constexpr float kGolden = 0.381966f;  // of a turn
-  return onCircle(std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)),
-                  kGolden * static_cast<float>(i));
 }
 
 }  // namespace
@@ -188,14 +123,10 @@ void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
       if (weights_[i] > 0.f) lit_.push_back(i);
   }
   rays_.resize(lit_.size());
-  const bool directional = p.light.kind == LightKind::Directional;
-  const vec3 back = -p.light.directionW * settings_.sceneDiagonal;
   for (std::size_t i = first; i < lit_.size(); ++i) {
     const std::size_t at = lit_[i];
     const vec3 to(s.x[at], s.y[at], s.z[at]);
-    vec3 from = directional ? to + back : p.light.positionW;
-    if (p.ahead > 0.f)
-      from += (to - from) * std::min(p.ahead / std::max(glm::distance(to, from), 1e-6f), 0.999f);
+    const vec3 from = startOf(p, to, settings_.sceneDiagonal);
     rays_.fromX[i] = from.x;
     rays_.fromY[i] = from.y;
     rays_.fromZ[i] = from.z;
@@ -296,8 +227,7 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
     asked_.resize(samples.size());
     for (const Tile& tile : samples.tiles) lightBySized(samples, tile, light, clear);
   } else {
-    const LightPoint point = {
-        .light = light, .centreW = light.positionW, .ahead = ballAhead(light)};
+    const LightPoint point = middleOf(light);
     const Tile all{.first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = {}};
     shade(samples, point, all);
     if (clear) {
@@ -328,36 +258,8 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
   rays_.resize(0);
   if (!found_.empty())
     for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
-  texels.assign(samples.texelCount, vec3(0.f));
-  for (std::size_t i = 0; i < samples.size();) {
-    const std::size_t begin = i;
-    vec3 sum(0.f);
-    for (; i < samples.size() && samples.texels[i] == samples.texels[begin]; ++i) sum += sums_[i];
-    texels[samples.texels[begin]] = sum / static_cast<float>(i - begin);
-  }
+  meansOf(samples, texels);
   return true;
-}
-
-std::vector<bool> BlockLighter::unevenTexels(const Samples& samples, float share,
-                                             std::size_t texels) const {
-  std::vector<bool> uneven(texels, false);
-  const auto brightness = [&](std::size_t i) { return sums_[i].x + sums_[i].y + sums_[i].z; };
-  float most = 0.f;
-  for (std::size_t i = 0; i < samples.size(); ++i) most = std::max(most, brightness(i));
-  constexpr float kFaint = 0.01f;  // of the brightest: no texel's mean counts as less
-  for (std::size_t i = 0; i < samples.size();) {
-    const std::size_t first = i;
-    float low = std::numeric_limits<float>::infinity(), high = 0.f, sum = 0.f;
-    for (; i < samples.size() && samples.texels[i] == samples.texels[first]; ++i) {
-      const float b = brightness(i);
-      low = std::min(low, b);
-      high = std::max(high, b);
-      sum += b;
-    }
-    const float mean = sum / static_cast<float>(i - first);
-    uneven[samples.texels[first]] = high - low > share * std::max(mean, kFaint * most);
-  }
-  return uneven;
 }
 
 }  // namespace lucerna::bake

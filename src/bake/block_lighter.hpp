@@ -1,66 +1,28 @@
-// Direct light of a group of lights on the samples of a block.
+// Direct light on the samples of a block, by engine `embree`: whole tiles at once, and nothing
+// asked of what cannot light them.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "bake/emitters.hpp"
-#include "bake/light_set.hpp"
+#include "bake/light_points.hpp"
+#include "bake/lighter.hpp"
 #include "bake/occluders.hpp"
-#include "bake/samples.hpp"
 #include "bake/shadow_tracer.hpp"
 
 namespace lucerna::bake {
 
-struct LightCounters {
-  std::uint64_t pairs = 0;  // of a light point and a sample that it may light: none was traced if
-                            // nothing could be in the way
-  std::uint64_t rays = 0;
-  double shadingSeconds = 0., tracingSeconds = 0.;  // of all threads
-
-  void add(const LightCounters& other) {
-    pairs += other.pairs;
-    rays += other.rays;
-    shadingSeconds += other.shadingSeconds;
-    tracingSeconds += other.tracingSeconds;
-  }
-};
-
-struct LighterSettings {
-  // Points on each light that has a size, where eight on its rim do not agree on what they see; 1:
-  // its middle alone.
-  int lightSamples = 16;
-  // Largest size of emitting surface that one ray stands for, as a share of its distance.
-  float emitterSize = 0.25f;
-  float sceneDiagonal = 1.f;  // m
-};
-
-// A point of a light.
-struct LightPoint {
-  scene::PlacedLight light;  // as if it had no size and stood there
-  vec3 centreW{0.f};         // of the light: distances count from there
-  float ahead = 0.f;         // m from the point to the light's surface, towards what is lit
-};
-
 // One thread's.
-class BlockLighter {
+class BlockLighter final : public Lighter {
  public:
   // Tracer, occluders and emitters outlive it.
   BlockLighter(const ShadowTracer& tracer, const Occluders& occluders, const Emitters& emitters,
                const LighterSettings& settings, const scene::Scene& scene);
 
-  // The mean irradiance (scene/light.hpp) of each texel of the block, row by row; of emitting
-  // surfaces only if `emitters` is set. False, and nothing is written: nothing reaches the block.
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::vector<vec3>& texels);
-
-  // Of the block that was lit last, texels whose samples differ by more than this share of their
-  // mean: shadows' edges. As `texels` above.
-  std::vector<bool> unevenTexels(const Samples& samples, float share, std::size_t texels) const;
-
-  LightCounters counters;
+             std::vector<vec3>& texels) override;
 
  private:
   using Tile = Samples::Tile;  // a range of samples
@@ -108,8 +70,6 @@ class BlockLighter {
   std::vector<vec3> seen_;    // weights times shares, of the points that are asked
   std::vector<float> asked_;  // their weights
   std::vector<std::uint32_t> unsure_;
-  // Of all lights, one a sample:
-  std::vector<vec3> sums_;
 };
 
 }  // namespace lucerna::bake

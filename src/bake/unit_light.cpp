@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "bake/block_lighter.hpp"
 #include "bake/seconds.hpp"
+#include "bake/thesis_lighter.hpp"
 #include "bake/triangle.hpp"
 #include "core/byte_stream.hpp"
 #include "core/check.hpp"
@@ -25,12 +27,26 @@ Aabb boundsOf(const World& world) {
   return box;
 }
 
-std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan) {
-  switch (plan.settings.engine) {
+std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
+  switch (engine) {
     case Engine::Embree:
       return makeEmbreeTracer(plan.world);
     case Engine::Octree:
       return makeOctreeTracer(plan.world);
+  }
+  CHECK(false);
+}
+
+std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
+  const LighterSettings settings{.lightSamples = plan.settings.sampling.lightSamples,
+                                 .emitterSize = plan.settings.sampling.emitterSize,
+                                 .sceneDiagonal = scene.diagonal};
+  switch (scene.engine) {
+    case Engine::Embree:
+      return std::make_unique<BlockLighter>(*scene.tracer, scene.occluders, scene.emitters,
+                                            settings, *plan.world.scene);
+    case Engine::Octree:
+      return std::make_unique<ThesisLighter>(*scene.tracer, scene.cells, settings);
   }
   CHECK(false);
 }
@@ -83,21 +99,20 @@ std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const P
   return light;
 }
 
-LightScene::LightScene(const Plan& plan)
-    : tracer(makeTracer(plan)),
+LightScene::LightScene(const Plan& plan, Engine engineOf)
+    : engine(engineOf),
+      tracer(makeTracer(plan, engineOf)),
       occluders(plan.world),
       emitters(emittersOf(plan)),
       rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
       chartOf(chartsOfTriangles(plan)),
-      diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {}
+      diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {
+  if (engine == Engine::Octree) cells = cellLights(emitters, *plan.world.scene);
+}
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
-      lighter_(*scene.tracer, scene.occluders, scene.emitters,
-               {.lightSamples = plan.settings.sampling.lightSamples,
-                .emitterSize = plan.settings.sampling.emitterSize,
-                .sceneDiagonal = scene.diagonal},
-               *plan.world.scene),
+      lighter_(makeLighter(plan, scene)),
       hidden_(scene.rays, scene.occluders, scene.chartOf) {}
 
 const Samples& UnitLighter::sample(const Block& block) {
@@ -126,9 +141,9 @@ void UnitLighter::lightGroup(std::uint32_t group, std::span<vec3> texels) {
 void UnitLighter::addLight(std::span<const scene::PlacedLight> lights, bool emitters,
                            std::span<vec3> texels) {
   constexpr float kUneven = 0.1f;
-  if (!lighter_.light(samples_, lights, emitters, part_)) return;
+  if (!lighter_->light(samples_, lights, emitters, part_)) return;
   if (fineSampler_) {
-    const std::vector<bool> uneven = lighter_.unevenTexels(samples_, kUneven, texels.size());
+    const std::vector<bool> uneven = lighter_->unevenTexels(samples_, kUneven, texels.size());
     if (std::ranges::find(uneven, true) != uneven.end()) refine(lights, emitters, uneven);
   }
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i] += part_[i];
@@ -140,7 +155,7 @@ void UnitLighter::refine(std::span<const scene::PlacedLight> lights, bool emitte
   fineSampler_->sample(block_, fineSamples_, which);
   hidden_.remove(fineSamples_, block_.chart);
   samplingSeconds += secondsSince(start);
-  if (!lighter_.light(fineSamples_, lights, emitters, finePart_)) return;
+  if (!lighter_->light(fineSamples_, lights, emitters, finePart_)) return;
   for (const std::uint16_t texel : fineSamples_.texels) part_[texel] = finePart_[texel];
 }
 

@@ -4,9 +4,12 @@
 #include <memory>
 #include <optional>
 
-#include "bake/block_lighter.hpp"
+#include "bake/emitters.hpp"
 #include "bake/hidden.hpp"
+#include "bake/lighter.hpp"
+#include "bake/occluders.hpp"
 #include "bake/plan.hpp"
+#include "bake/shadow_tracer.hpp"
 #include "core/file.hpp"
 
 namespace lucerna::bake {
@@ -31,10 +34,13 @@ std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const P
 
 // What the tracing of a plan needs, made once; any number of threads may use it.
 struct LightScene {
-  explicit LightScene(const Plan& plan);
+  explicit LightScene(const Plan& plan) : LightScene(plan, plan.settings.engine) {}
+  LightScene(const Plan& plan, Engine engine);  // instead of the plan's
+  Engine engine;
   std::unique_ptr<ShadowTracer> tracer;
   Occluders occluders;
   Emitters emitters;
+  std::vector<scene::PlacedLight> cells;  // of the emitters, as lights; of the octree only
   trace::RayScene rays;
   std::vector<std::uint32_t> chartOf;  // of each triangle
   float diagonal = 0.f;                // m
@@ -48,7 +54,7 @@ class UnitLighter {
   // A block's samples, and then a group's light on its texels, row by row.
   const Samples& sample(const Block& block);
   void lightGroup(std::uint32_t group, std::span<vec3> texels);
-  const LightCounters& counters() const { return lighter_.counters; }
+  const LightCounters& counters() const { return lighter_->counters; }
   double samplingSeconds = 0.;
 
  private:
@@ -58,7 +64,7 @@ class UnitLighter {
               const std::vector<bool>& which);
 
   const Plan& plan_;
-  BlockLighter lighter_;
+  std::unique_ptr<Lighter> lighter_;
   HiddenSamples hidden_;
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there

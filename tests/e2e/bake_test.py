@@ -125,6 +125,13 @@ class BakeTest(unittest.TestCase):
             self.ok(self.bake(f"t{threads}", *SMALL, "--threads", threads))
             self.assertEqual(self.hashes(f"t{threads}"), plain)
 
+    def test_threads_do_not_matter_to_the_octree(self):
+        flags = [*SMALL[:-1], "standard", "--engine", "octree"]
+        plain = self.whole("plain", *flags, "--threads", 1)
+        self.ok(self.bake("t4", *flags, "--threads", 4))
+        self.assertEqual(self.hashes("t4"), plain)
+        self.assertNotEqual(self.whole("embree", *SMALL[:-1], "standard"), plain)
+
     def test_shards_do_not_matter(self):
         plain = self.whole("plain", *SMALL)
         for count in (1, 2, 5):

@@ -170,10 +170,17 @@ class BenchTest(unittest.TestCase):
             self.assertGreater(run["rays"], 0)
             self.assertEqual(run["thesis_pairs"], run["lights"] * run["maps"] * 2048**2)
         self.assertEqual(lamps["lights"], 1)
-        embree, octree = (runs[f"bake/engine/{engine}/lamps/cornell_median"] for engine in ("embree", "octree"))
-        self.assertEqual(embree["rays"], octree["rays"])
-        self.assertLessEqual(embree["share"], 1)
-        self.assertGreater(octree["all_tracing_s"], 0)
+        engines = {(engine, lights): runs[f"bake/engine/{engine}/{lights}/cornell_median"]
+                   for engine in ("embree", "octree") for lights in ("lamps as points", "all surfaces, 36 m")}
+        for run in engines.values():
+            self.assertLessEqual(run["share"], 1)
+            self.assertGreater(run["all_tracing_s"], 0)
+        # A point is one ray for either; a surface is a ray a cell for the octree alone.
+        self.assertEqual(engines["embree", "lamps as points"]["pairs"], engines["octree", "lamps as points"]["rays"])
+        self.assertGreater(engines["octree", "all surfaces, 36 m"]["rays"],
+                           20 * engines["embree", "all surfaces, 36 m"]["rays"])
+        for how in ("Embree, ray by ray", "the octree", "without mailboxes", "unsorted"):
+            self.assertGreater(runs[f"bake/rate/octree's rays: {how}/lamps/cornell_median"]["mrays_s"], 0)
         for how in ("Embree, packets of 16", "Embree, ray by ray", "the tracer alone", "light stage: tracing"):
             self.assertGreater(runs[f"bake/rate/{how}/lamps/cornell_median"]["mrays_s"], 0)
         masks, rectangles = (runs[f"bake/packing/{how}/cornell_median"] for how in ("masks", "rectangles"))

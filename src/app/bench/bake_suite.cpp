@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <limits>
 #include <numeric>
 
 #include "app/bench/bake_workloads.hpp"
@@ -13,6 +14,7 @@
 #include "bake/bake.hpp"
 #include "bake/bare_rays.hpp"
 #include "bake/stretch.hpp"
+#include "bake/unit_light.hpp"
 #include "core/random.hpp"
 
 namespace lucerna::app::bench {
@@ -27,13 +29,13 @@ double secondsSince(Clock::time_point start) {
 
 // How much of each load engines share and rates are taken from.
 struct Sampled {
-  std::size_t rays;  // recorded, unless that takes longer than
+  std::size_t rays;  // recorded of each engine; of Embree unless that takes longer than
   double recordingSeconds;
   double seconds;  // of both engines in turns
 };
 Sampled sampled(bool quick) {
   return quick ? Sampled{.rays = 200'000, .recordingSeconds = 2, .seconds = 1}
-               : Sampled{.rays = 1'000'000, .recordingSeconds = 15, .seconds = 8};
+               : Sampled{.rays = 1'000'000, .recordingSeconds = 15, .seconds = 20};
 }
 
 // A folder for one bake, removed with the object.
@@ -107,48 +109,43 @@ Status measureLight(SceneRun& run, const Load& load, const LoadPlan& planned,
 
 // ---- a sample of it, on one thread ----
 
-// Asks whichever tracer has its turn, and keeps what it is asked if it is to.
-class TurnTracer final : public bake::ShadowTracer {
+// Passes rays on, and keeps them if it is to.
+class RecordingTracer final : public bake::ShadowTracer {
  public:
+  explicit RecordingTracer(std::unique_ptr<bake::ShadowTracer> tracer)
+      : tracer_(std::move(tracer)) {}
   void trace(const bake::ShadowRays& rays, std::span<vec3> shares) const override {
-    if (record) record->push_back(rays);
-    now->trace(rays, shares);
+    if (record && calls_++ % every == 0 && kept_ < most) {
+      record->push_back(rays);
+      kept_ += rays.size();
+    }
+    tracer_->trace(rays, shares);
   }
-  const bake::ShadowTracer* now = nullptr;
-  std::vector<bake::ShadowRays>* record = nullptr;  // null: nothing is kept
+  std::vector<bake::ShadowRays>* record = nullptr;             // null: nothing is kept
+  std::size_t every = 1;                                       // so many lists one is kept
+  std::size_t most = std::numeric_limits<std::size_t>::max();  // rays
+
+ private:
+  std::unique_ptr<bake::ShadowTracer> tracer_;
+  mutable std::size_t calls_ = 0, kept_ = 0;
 };
 
 struct Cost {
   double sampling = 0, shading = 0, tracing = 0;  // s
-  double rays = 0;
+  double pairs = 0, rays = 0;
   double all() const { return sampling + shading + tracing; }
 };
 
-// One thread's work on a load, by both engines.
-class Bench {
+// One thread's work on a load by one engine.
+class EngineWork {
  public:
-  Bench(const bake::Plan& plan, std::uint64_t seed)
-      : plan_(plan),
-        scene_(plan),
-        embree_(std::move(scene_.tracer)),
-        octree_(bake::makeOctreeTracer(plan.world)),
-        order_(plan.units.size()) {
-    auto turns = std::make_unique<TurnTracer>();
-    turns_ = turns.get();
-    turns_->now = embree_.get();
-    scene_.tracer = std::move(turns);
+  EngineWork(const bake::Plan& plan, bake::Engine engine) : plan_(plan), scene_(plan, engine) {
+    auto tracer = std::make_unique<RecordingTracer>(std::move(scene_.tracer));
+    recorder = tracer.get();
+    scene_.tracer = std::move(tracer);
     lighter_.emplace(plan, scene_);
-    std::iota(order_.begin(), order_.end(), 0u);
-    Random random(seed, 91);
-    for (auto i = static_cast<std::uint32_t>(order_.size()); i > 1; --i)
-      std::swap(order_[i - 1], order_[random.below(i)]);
   }
-
-  // All units, in an order of chance.
-  std::span<const std::uint32_t> units() const { return order_; }
-  const bake::ShadowTracer& embree() const { return *embree_; }
-  Cost light(std::uint32_t unit, const std::string& engine) {
-    turns_->now = engine == kOctree ? octree_.get() : embree_.get();
+  Cost light(std::uint32_t unit) {
     const bake::LightCounters before = lighter_->counters();
     const double sampling = lighter_->samplingSeconds;
     lighter_->light(plan_.units[unit]);
@@ -156,69 +153,127 @@ class Bench {
     return {.sampling = lighter_->samplingSeconds - sampling,
             .shading = after.shadingSeconds - before.shadingSeconds,
             .tracing = after.tracingSeconds - before.tracingSeconds,
+            .pairs = static_cast<double>(after.pairs - before.pairs),
             .rays = static_cast<double>(after.rays - before.rays)};
   }
-  // Of the first units those with rays, until these are enough or time is up; and the rays.
-  std::vector<std::uint32_t> record(const Sampled& wanted, std::vector<bake::ShadowRays>& lists) {
-    turns_->record = &lists;
-    const auto start = Clock::now();
-    std::vector<std::uint32_t> units;
-    std::size_t found = 0;
-    for (const std::uint32_t unit : order_) {
-      const bool late = found > 0 && secondsSince(start) > wanted.recordingSeconds;
-      if (late || found >= wanted.rays || Progress::cancelled()) break;
-      const auto rays = static_cast<std::size_t>(light(unit, kEmbree).rays);
-      if (rays > 0) units.push_back(unit);
-      found += rays;
-    }
-    turns_->record = nullptr;
-    return units;
-  }
+  RecordingTracer* recorder = nullptr;  // scene_ has it
 
  private:
   const bake::Plan& plan_;
   bake::LightScene scene_;
-  std::unique_ptr<bake::ShadowTracer> embree_, octree_;
-  TurnTracer* turns_ = nullptr;  // scene_ has it
   std::optional<bake::UnitLighter> lighter_;
-  std::vector<std::uint32_t> order_;
 };
+
+// Both engines, and all units in an order of chance.
+struct Bench {
+  Bench(const bake::Plan& plan, std::uint64_t seed)
+      : embree(plan, bake::Engine::Embree),
+        octree(plan, bake::Engine::Octree),
+        units(plan.units.size()) {
+    std::iota(units.begin(), units.end(), 0u);
+    Random random(seed, 91);
+    for (auto i = static_cast<std::uint32_t>(units.size()); i > 1; --i)
+      std::swap(units[i - 1], units[random.below(i)]);
+  }
+  EngineWork embree, octree;
+  std::vector<std::uint32_t> units;
+};
+
+// Of the first units those that Embree has rays in, until these are enough or time is up; and the
+// rays.
+std::vector<std::uint32_t> record(Bench& bench, const Sampled& wanted,
+                                  std::vector<bake::ShadowRays>& lists) {
+  bench.embree.recorder->record = &lists;
+  const auto start = Clock::now();
+  std::vector<std::uint32_t> units;
+  std::size_t found = 0;
+  for (const std::uint32_t unit : bench.units) {
+    const bool late = found > 0 && secondsSince(start) > wanted.recordingSeconds;
+    if (late || found >= wanted.rays || Progress::cancelled()) break;
+    const auto rays = static_cast<std::size_t>(bench.embree.light(unit).rays);
+    if (rays > 0) units.push_back(unit);
+    found += rays;
+  }
+  bench.embree.recorder->record = nullptr;
+  return units;
+}
 
 double sumOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// Both engines on the same units, in turns, for so long.
-void measureEngines(SceneRun& run, const Load& load, const bake::Plan& plan, Bench& bench) {
-  const double limit = sampled(run.results.context.quick).seconds;
-  std::map<std::string, std::vector<double>> seconds, tracing;
-  std::vector<double> rays;
-  const auto start = Clock::now();
-  for (const std::uint32_t unit : bench.units()) {
-    if (Progress::cancelled() || (rays.size() > 1 && secondsSince(start) > limit)) break;
-    const bool octreeFirst = rays.size() % 2 == 1;
-    for (const std::string& engine :
-         {octreeFirst ? kOctree : kEmbree, octreeFirst ? kEmbree : kOctree}) {
-      const Cost cost = bench.light(unit, engine);
-      seconds[engine].push_back(cost.all());
-      tracing[engine].push_back(cost.tracing);
-      if (engine == kEmbree) rays.push_back(cost.rays);
-    }
+// One engine's work on each unit of a sample.
+struct Sample {
+  std::vector<double> seconds, shading, tracing, pairs, rays;
+  void add(const Cost& cost) {
+    seconds.push_back(cost.all());
+    shading.push_back(cost.shading);
+    tracing.push_back(cost.tracing);
+    pairs.push_back(cost.pairs);
+    rays.push_back(cost.rays);
   }
+};
+
+// What tracing takes goes with Embree's pairs, all else with the texels.
+struct Sizes {
+  std::vector<double> pairs, texels;  // of the units of the sample
+  double allPairs = 0, allTexels = 0;
+  std::size_t units = 0;
+};
+
+void addEstimate(Measurement& m, const std::string& name, const Estimate& estimate) {
+  m.count("all_" + name, estimate.total);
+  m.count("all_" + name + "_error", estimate.error);
+}
+
+void addEngine(Measurement& m, const Sample& sample, const Sizes& sizes) {
+  m.add(1e3 * sumOf(sample.seconds), 1e3 * sumOf(sample.seconds));
+  m.count("units", static_cast<double>(sample.seconds.size()));
+  m.count("pairs", sumOf(sample.pairs));
+  m.count("rays", sumOf(sample.rays));
+  m.count("tracing_s", sumOf(sample.tracing));
+  m.count("shading_s", sumOf(sample.shading));
+  if (sizes.allPairs <= 0) return;
+  const auto byPairs = [&](std::span<const double> cost) {
+    return estimateTotal(cost, sizes.pairs, sizes.allPairs, sizes.units);
+  };
+  addEstimate(m, "tracing_s", byPairs(sample.tracing));
+  addEstimate(m, "rays", byPairs(sample.rays));
+  addEstimate(m, "shading_s",
+              estimateTotal(sample.shading, sizes.texels, sizes.allTexels, sizes.units));
+  m.count("share", byPairs(sample.tracing).share);
+}
+
+// Both engines on the same units, in turns, for so long. Keeps rays of the octree's.
+void measureEngines(SceneRun& run, const Load& load, const bake::Plan& plan, Bench& bench,
+                    std::vector<bake::ShadowRays>& octreeRays) {
+  const Sampled wanted = sampled(run.results.context.quick);
+  bench.octree.recorder->record = &octreeRays;
+  bench.octree.recorder->every = 16;
+  bench.octree.recorder->most = wanted.rays;
   const std::string name(load.name);
-  const std::vector<double> allRays = run.results.samples({kLight, name, run.name}, "rays");
-  for (const std::string& engine : {kEmbree, kOctree}) {
-    Measurement& m = run.results.at({kEngine, engine, name, run.name});
-    m.add(1e3 * sumOf(seconds[engine]), 1e3 * sumOf(seconds[engine]));
-    m.count("units", static_cast<double>(rays.size()));
-    m.count("rays", sumOf(rays));
-    m.count("tracing_s", sumOf(tracing[engine]));
-    if (allRays.empty()) continue;
-    const Estimate all = estimateTotal(tracing[engine], rays, allRays.back(), plan.units.size());
-    m.count("all_tracing_s", all.total);
-    m.count("all_tracing_error_s", all.error);
-    m.count("share", all.share);
+  Sizes sizes{.pairs = {},
+              .texels = {},
+              .allTexels = static_cast<double>(plan.texels()),
+              .units = plan.units.size()};
+  if (const auto all = run.results.samples({kLight, name, run.name}, "pairs"); !all.empty())
+    sizes.allPairs = all.back();
+  Sample embree, octree;
+  const auto start = Clock::now();
+  for (const std::uint32_t unit : bench.units) {
+    if (Progress::cancelled() || (sizes.pairs.size() > 1 && secondsSince(start) > wanted.seconds))
+      break;
+    const bool octreeFirst = sizes.pairs.size() % 2 == 1;
+    if (octreeFirst) octree.add(bench.octree.light(unit));
+    const Cost cost = bench.embree.light(unit);
+    embree.add(cost);
+    if (!octreeFirst) octree.add(bench.octree.light(unit));
+    sizes.pairs.push_back(cost.pairs);
+    sizes.texels.push_back(plan.units[unit].texels);
   }
+  bench.octree.recorder->record = nullptr;
+  addEngine(run.results.at({kEngine, kEmbree, name, run.name}), embree, sizes);
+  addEngine(run.results.at({kEngine, kOctree, name, run.name}), octree, sizes);
 }
 
 void addRate(SceneRun& run, const std::string& how, const Load& load, double rays, double seconds) {
@@ -229,43 +284,85 @@ void addRate(SceneRun& run, const std::string& how, const Load& load, double ray
   m.count("rays", rays);
 }
 
-// Rays of some units, once more by each, in turns.
+double traceSeconds(const bake::ShadowTracer& tracer, std::span<const bake::ShadowRays> lists) {
+  std::vector<vec3> shares;
+  const auto start = Clock::now();
+  for (const bake::ShadowRays& list : lists) {
+    shares.resize(list.size());
+    tracer.trace(list, shares);
+  }
+  return secondsSince(start);
+}
+
+void takeTurns(const SceneRun& run, std::span<const std::function<void()>> turns) {
+  for (int round = 0; round < run.extent.rounds && !Progress::cancelled(); ++round)
+    for (const std::size_t i : turnOrder(turns.size(), static_cast<std::size_t>(round))) turns[i]();
+}
+
+// Embree's rays of some units, once more by each, in turns.
 void measureRates(SceneRun& run, const Load& load, const bake::Plan& plan, Bench& bench) {
   std::vector<bake::ShadowRays> lists;
-  const std::vector<std::uint32_t> units = bench.record(sampled(run.results.context.quick), lists);
+  const std::vector<std::uint32_t> units = record(bench, sampled(run.results.context.quick), lists);
   const std::string instructions = bake::likeTracer().instructionSet;
   bake::BareRays bare(plan.world, lists), same(plan.world, lists, {.instructionSet = instructions}),
       like(plan.world, lists, bake::likeTracer());
   const auto rays = static_cast<double>(bare.count());
-  std::vector<vec3> shares;
-  const std::vector<std::function<void()>> turns{
-      [&] { addRate(run, kBarePackets, load, rays, bare.packetSeconds()); },
-      [&] { addRate(run, kSameInstructions, load, rays, same.packetSeconds()); },
-      [&] { addRate(run, kLikeTracer, load, rays, like.packetSeconds()); },
-      [&] { addRate(run, kBareSingle, load, rays, bare.singleSeconds()); },
-      [&] {
-        const auto start = Clock::now();
-        for (const bake::ShadowRays& list : lists) {
-          shares.resize(list.size());
-          bench.embree().trace(list, shares);
-        }
-        addRate(run, kTracer, load, rays, secondsSince(start));
-      },
-      [&] {
-        Cost sum;
-        for (const std::uint32_t unit : units) {
-          const Cost cost = bench.light(unit, kEmbree);
-          sum.sampling += cost.sampling;
-          sum.shading += cost.shading;
-          sum.tracing += cost.tracing;
-          sum.rays += cost.rays;
-        }
-        addRate(run, kTracing, load, sum.rays, sum.tracing);
-        addRate(run, kShading, load, sum.rays, sum.tracing + sum.shading);
-        addRate(run, kWhole, load, sum.rays, sum.all());
-      }};
-  for (int round = 0; round < run.extent.rounds && !Progress::cancelled(); ++round)
-    for (const std::size_t i : turnOrder(turns.size(), static_cast<std::size_t>(round))) turns[i]();
+  const auto tracer = bake::makeEmbreeTracer(plan.world);
+  const auto lightStage = [&] {
+    Cost sum;
+    for (const std::uint32_t unit : units) {
+      const Cost cost = bench.embree.light(unit);
+      sum.sampling += cost.sampling;
+      sum.shading += cost.shading;
+      sum.tracing += cost.tracing;
+      sum.rays += cost.rays;
+    }
+    addRate(run, kTracing, load, sum.rays, sum.tracing);
+    addRate(run, kShading, load, sum.rays, sum.tracing + sum.shading);
+    addRate(run, kWhole, load, sum.rays, sum.all());
+  };
+  takeTurns(run, std::vector<std::function<void()>>{
+                     [&] { addRate(run, kBarePackets, load, rays, bare.packetSeconds()); },
+                     [&] { addRate(run, kSameInstructions, load, rays, same.packetSeconds()); },
+                     [&] { addRate(run, kLikeTracer, load, rays, like.packetSeconds()); },
+                     [&] { addRate(run, kBareSingle, load, rays, bare.singleSeconds()); },
+                     [&] { addRate(run, kTracer, load, rays, traceSeconds(*tracer, lists)); },
+                     lightStage});
+}
+
+// The same rays in an order of chance, in one list.
+bake::ShadowRays shuffled(std::span<const bake::ShadowRays> lists, std::uint64_t seed) {
+  std::vector<std::array<float, 6>> rays;
+  for (const bake::ShadowRays& r : lists)
+    for (std::size_t i = 0; i < r.size(); ++i)
+      rays.push_back({r.fromX[i], r.fromY[i], r.fromZ[i], r.toX[i], r.toY[i], r.toZ[i]});
+  Random random(seed, 92);
+  for (auto i = static_cast<std::uint32_t>(rays.size()); i > 1; --i)
+    std::swap(rays[i - 1], rays[random.below(i)]);
+  bake::ShadowRays result;
+  result.resize(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto& r = rays[i];
+    result.fromX[i] = r[0], result.fromY[i] = r[1], result.fromZ[i] = r[2];
+    result.toX[i] = r[3], result.toY[i] = r[4], result.toZ[i] = r[5];
+  }
+  return result;
+}
+
+// The octree's rays, once more by it and by Embree, in turns.
+void measureOctree(SceneRun& run, const Load& load, const bake::Plan& plan,
+                   std::span<const bake::ShadowRays> lists) {
+  const auto tracer = bake::makeOctreeTracer(plan.world),
+             plain = bake::makeOctreeTracer(plan.world, {.mailboxes = false});
+  bake::BareRays bare(plan.world, lists);
+  const std::vector unsorted{shuffled(lists, run.results.context.seed)};
+  const auto rays = static_cast<double>(bare.count());
+  takeTurns(run,
+            std::vector<std::function<void()>>{
+                [&] { addRate(run, kOctreeBare, load, rays, bare.singleSeconds()); },
+                [&] { addRate(run, kOctreeRays, load, rays, traceSeconds(*tracer, lists)); },
+                [&] { addRate(run, kNoMailboxes, load, rays, traceSeconds(*plain, lists)); },
+                [&] { addRate(run, kUnsorted, load, rays, traceSeconds(*tracer, unsorted)); }});
 }
 
 // ---- packing ----
@@ -340,8 +437,10 @@ Result<bool> measureLoad(SceneRun& run, const Load& load, float density, bool in
   if (planned.lights == 0) return false;
   if (inFull) LUCERNA_TRY_VOID(measureLight(run, load, planned, before));
   Bench bench(planned.plan, seed);
-  measureEngines(run, load, planned.plan, bench);
+  std::vector<bake::ShadowRays> octreeRays;
+  measureEngines(run, load, planned.plan, bench, octreeRays);
   measureRates(run, load, planned.plan, bench);
+  measureOctree(run, load, planned.plan, octreeRays);
   if (Progress::cancelled()) return error(ErrorKind::Cancelled, "cancelled while baking");
   return true;
 }
@@ -356,7 +455,7 @@ Status measure(SceneRun& run) {
   for (const Load& load : loads) {
     if (run.results.context.quick && !load.quick) continue;
     LUCERNA_TRY(lit, measureLoad(run, load, density, scene.tables));
-    if (!lit && load.lights == LoadLights::Lamps)
+    if (!lit && load.lights == LoadLights::Lamps && !load.points)
       LUCERNA_TRY_VOID(measureLoad(run, addedLights(), density, scene.tables));
     run.advance(share);
   }

@@ -26,6 +26,13 @@ inline const std::string kBarePackets = "Embree, packets of 16",
 inline const std::array kHows{kBarePackets, kSameInstructions, kLikeTracer, kBareSingle,
                               kTracer,      kTracing,          kShading,    kWhole};
 
+// The same of the octree's own rays.
+inline const std::string kOctreeBare = "octree's rays: Embree, ray by ray",
+                         kOctreeRays = "octree's rays: the octree",
+                         kNoMailboxes = "octree's rays: without mailboxes",
+                         kUnsorted = "octree's rays: unsorted";
+inline const std::array kOctreeHows{kOctreeBare, kOctreeRays, kNoMailboxes, kUnsorted};
+
 std::vector<Block> bakeReport(const Results& results);
 
 }  // namespace lucerna::app::bench

@@ -17,8 +17,9 @@ constexpr std::uint64_t kFew = 202;  // as the thesis
 
 constexpr double kHour = 3600;
 // Reaches follow from attenuations of 0.2, 0.1 and 0.05 / m^2: where a light gives 1/256.
-constexpr std::array<Load, 7> kLoads{{
-    {"lamps", LoadLights::Lamps, 0, 28.176 * 60, 0},
+constexpr std::array<Load, 8> kLoads{{
+    {"lamps", LoadLights::Lamps},
+    {"lamps as points", LoadLights::Lamps, 0, 28.176 * 60, 0, true, true},
     {"few surfaces, 36 m", LoadLights::FewSurfaces, 36, 10.276, 657.89},
     {"few surfaces, 51 m", LoadLights::FewSurfaces, 51, 19.483, 348.43, false},
     {"few surfaces, 72 m", LoadLights::FewSurfaces, 72, 36.875, 183.82, false},
@@ -120,8 +121,8 @@ const Load& addedLights() {
 }
 
 BakeScene bakeSceneOf(std::string_view name, const scene::Scene& scene) {
-  static constexpr std::array<BakeScene, 6> kKnown{{{"nightcity", 1.75f, true, true},
-                                                    {"nightcity, turned", 1.75f, false, true},
+  static constexpr std::array<BakeScene, 6> kKnown{{{"nightcity", 2.05f, true, true},
+                                                    {"nightcity, turned", 2.05f, false, true},
                                                     {"atrium", 60.f, false, false},
                                                     {"sponza", 0.4f, false, true},
                                                     {"street-1", 2.5f, false, true},
@@ -143,7 +144,7 @@ Result<LoadPlan> planLoad(const scene::Scene& scene, const Load& load, float den
   settings.density = density;
   settings.faintest = 0;
   if (load.reach > 0) settings.reach = load.reach;
-  settings.sampling.lightSamples = 16;
+  settings.sampling.lightSamples = load.points ? 1 : 16;
   LUCERNA_TRY(plan, bake::makePlan(*result.scene, settings));
   result.plan = std::move(plan);
   if (surfaces || load.lights == LoadLights::Added)

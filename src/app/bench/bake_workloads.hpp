@@ -25,7 +25,8 @@ struct Load {
   float reach = 0;  // m; 0: as far as the lights say
   // What the thesis took for them, one thread: rays, s; and a second, by its own count, millions.
   double thesisSeconds = 0, thesisRate = 0;
-  bool quick = true;  // measured by --quick, too
+  bool quick = true;    // measured by --quick, too
+  bool points = false;  // of lamps: their middles alone, as the thesis has it
 };
 // Of the tables.
 std::span<const Load> thesisLoads();

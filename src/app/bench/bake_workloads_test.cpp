@@ -28,6 +28,26 @@ TEST(BakeWorkloads, LampsAreAllOfTheSceneAndNothingElseShines) {
   EXPECT_FALSE(load.plan.emittersShine());
 }
 
+TEST(BakeWorkloads, TheThesisLampsArePoints) {
+  const scene::Scene scene = *scene::loadScene("builtin:nightcity");
+  int points = 0;
+  for (const Load& load : thesisLoads()) {
+    if (load.lights != LoadLights::Lamps) continue;
+    const LoadPlan planned = *planLoad(scene, load, 0.3f, 0);
+    EXPECT_EQ(planned.lights, 106u);
+    EXPECT_EQ(planned.plan.settings.sampling.lightSamples == 1, load.thesisSeconds > 0);
+    points += load.points;
+  }
+  EXPECT_EQ(points, 1);
+}
+
+TEST(BakeWorkloads, TheThesisCityFillsEightMaps) {
+  const scene::Scene scene = *scene::loadScene("builtin:nightcity");
+  const float density = bakeSceneOf("nightcity", scene).density;
+  const LoadPlan load = *planLoad(scene, loadOf(LoadLights::Lamps), density, 0);
+  EXPECT_EQ(load.plan.packed.packing.maps, 8);
+}
+
 TEST(BakeWorkloads, FewSurfacesAreSomeOfAll) {
   const scene::Scene scene = *scene::loadScene("builtin:nightcity");
   const LoadPlan few = *planLoad(scene, loadOf(LoadLights::FewSurfaces), 0.3f, 0),

@@ -1,0 +1,65 @@
+#include "bake/light_points.hpp"
+
+#include <cmath>
+
+namespace lucerna::bake {
+namespace {
+
+using scene::LightKind;
+using scene::PlacedLight;
+
+vec3 axisOf(const PlacedLight& light, vec3 placeW) {
+  if (light.kind == LightKind::Spot) return light.directionW;
+  if (light.kind == LightKind::Directional) return -light.directionW;
+  const vec3 to = placeW - light.positionW;
+  const float distance = glm::length(to);
+  return distance > 0.f ? to / distance : vec3(0.f, 1.f, 0.f);
+}
+
+}  // namespace
+
+bool hasSize(const PlacedLight& light) {
+  return light.kind == LightKind::Directional ? light.angle > 0.f : light.radius > 0.f;
+}
+
+LightPoint middleOf(const PlacedLight& light) {
+  return {.light = light,
+          .centreW = light.positionW,
+          .ahead = light.kind == LightKind::Point ? light.radius : 0.f};
+}
+
+Disc::Disc(const PlacedLight& light, vec3 placeW) : light_(light), frame_(axisOf(light, placeW)) {}
+
+LightPoint Disc::at(vec2 p) const {
+  LightPoint point{.light = light_, .centreW = light_.positionW};
+  point.light.radius = point.light.angle = 0.f;
+  const float squared = std::min(glm::dot(p, p), 1.f);
+  if (light_.kind == LightKind::Directional) {
+    // Uniform in solid angle, and as bright as trace/light_sampling.hpp.
+    const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
+    const float below = squared * (1.f - cosHalf);
+    const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
+    point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
+    point.light.intensity *= 2.f / (1.f + cosHalf);
+    return point;
+  }
+  point.light.positionW += light_.radius * (frame_.x * p.x + frame_.y * p.y);
+  if (light_.kind == LightKind::Point) {
+    point.ahead = light_.radius * std::sqrt(1.f - squared);
+  } else {
+    point.centreW = point.light.positionW;
+  }
+  return point;
+}
+
+vec2 onCircle(float radius, float turn) {
+  return radius * vec2(std::cos(2.f * kPi * turn), std::sin(2.f * kPi * turn));
+}
+
+vec2 spiralPoint(int i, int n) {
+  constexpr float kGolden = 0.381966f;  // of a turn
+  return onCircle(std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)),
+                  kGolden * static_cast<float>(i));
+}
+
+}  // namespace lucerna::bake

@@ -1,0 +1,48 @@
+// Lights that have a size as points that stand for them.
+#pragma once
+
+#include <algorithm>
+
+#include "scene/light.hpp"
+#include "trace/light_sampling.hpp"
+
+namespace lucerna::bake {
+
+// A point of a light.
+struct LightPoint {
+  scene::PlacedLight light;  // as if it had no size and stood there
+  vec3 centreW{0.f};         // of the light: distances count from there
+  float ahead = 0.f;         // m from the point to the light's surface, towards what is lit
+};
+
+// Where a ray of the point to a sample begins. back: m, more than the scene is wide.
+inline vec3 startOf(const LightPoint& point, vec3 to, float back) {
+  if (point.light.kind == scene::LightKind::Directional) return to - point.light.directionW * back;
+  const vec3 from = point.light.positionW;
+  if (point.ahead <= 0.f) return from;
+  const float distance = std::max(glm::distance(to, from), 1e-6f);
+  return from + (to - from) * std::min(point.ahead / distance, 0.999f);
+}
+
+bool hasSize(const scene::PlacedLight& light);
+// The middle, for all of the light.
+LightPoint middleOf(const scene::PlacedLight& light);
+
+// A light as a disc: of a spot light; of a sphere, the one that faces the place; of a directional
+// light, a cone of directions. The light outlives it.
+class Disc {
+ public:
+  Disc(const scene::PlacedLight& light, vec3 placeW);
+  LightPoint at(vec2 p) const;  // of the unit disc
+
+ private:
+  const scene::PlacedLight& light_;
+  trace::Frame frame_;
+};
+
+vec2 onCircle(float radius, float turn);
+// The i-th of n points that fill the unit disc evenly, seen along any edge too (Vogel, "A Better
+// Way to Construct the Sunflower Head", 1979).
+vec2 spiralPoint(int i, int n);
+
+}  // namespace lucerna::bake
