@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "bake/cancelled.hpp"
 #include "bake/plan_hash.hpp"
 #include "core/text.hpp"
 
@@ -122,13 +123,16 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   plan.settings = settings;
   plan.world = makeWorld(scene);
   plan.charts = chartsOf(plan.world, settings);
+  LUCERNA_TRY_VOID(checkGoesOn());
   if (plan.charts.charts.empty())
     return error(ErrorKind::Input,
                  "'{}': found no triangle that takes light; wanted a scene with surfaces",
                  scene.name);
   auto places = packed(plan.charts, settings);
   if (!places) {
+    LUCERNA_TRY_VOID(checkGoesOn());
     const float fits = densityThatFits(plan.world, plan.charts, settings);
+    LUCERNA_TRY_VOID(checkGoesOn());
     if (fits == 0.f) return places.error();
     return error(places.error().kind, "{}: --density {:g} fits", places.error().message, fits);
   }

@@ -156,7 +156,10 @@ class BakeTest(unittest.TestCase):
 
     def end(self, folder, sign, reached, *flags):
         """Starts a bake, ends it once reached() is true, and gives its exit code."""
-        process = subprocess.Popen([PROGRAM, "bake", SCENE, "-o", folder, *flags], cwd=self.folder,
+        return self.end_run(["bake", SCENE, "-o", folder, *flags], sign, reached)
+
+    def end_run(self, arguments, sign, reached):
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 120
         while process.poll() is None and not reached() and time.monotonic() < deadline:
@@ -205,6 +208,28 @@ class BakeTest(unittest.TestCase):
         self.assertGreater(document["bake"]["units_before"], 0)
         self.assertEqual(self.hashes("i"), plain)
 
+    def test_interrupt_while_writing_is_heard(self):
+        plain = self.whole("plain", *LONG)
+
+        def check(folder, code):
+            self.assertEqual(code, 130)
+            self.assertFalse((self.folder / folder / "manifest.json").exists())
+            self.assertTrue((self.folder / folder / "work" / "bake.json").exists())
+        check("w", self.end("w", signal.SIGINT, self.written("w", 1), *LONG))
+        # What is lit stays lit.
+        document = json.loads(self.ok(self.bake("w", *LONG, "--resume", "--json")).stdout)
+        self.assertEqual(document["bake"]["units_before"], document["bake"]["units"])
+        self.assertEqual(self.hashes("w"), plain)
+        for shard in (1, 2):
+            self.ok(self.bake("m", *LONG, "--shard", f"{shard}/2"))
+        merge = ["lightmap", "merge", "m"]
+        check("m", self.end_run(merge, signal.SIGINT, self.written("m", 1)))
+        layout = self.folder / "m" / "layout.bin"
+        layout.unlink()
+        check("m", self.end_run(merge, signal.SIGINT, layout.exists))
+        self.ok(self.lucerna(*merge))
+        self.assertEqual(self.hashes("m"), plain)
+
     def test_leftovers_of_a_kill_while_writing_are_cleared(self):
         plain = self.whole("plain", *SMALL)
         self.ok(self.bake("l", *SMALL, "--shard", "1/2"))
@@ -217,6 +242,7 @@ class BakeTest(unittest.TestCase):
         self.ok(self.bake("l", *SMALL))
         self.assertEqual(self.hashes("l"), plain)
         os.makedirs(self.folder / "k")
+        (self.folder / "k" / "layout.bin").write_bytes(b"half")
         (self.folder / "k" / "map-000.exr").write_bytes(b"half")
         (self.folder / "k" / "patch-009.bin").write_bytes(b"half")
         self.ok(self.bake("k", *SMALL))
@@ -318,8 +344,46 @@ class BakeTest(unittest.TestCase):
         (self.folder / "other" / "letter.txt").write_text("")
         self.fails(2, self.bake("other", *SMALL), "none of a lightmap")
         self.fails(1, self.bake("/proc/lightmap", *SMALL), "/proc")
-        self.fails(2, self.lucerna("bake", SCENE), "--output")
+        self.fails(2, self.lucerna("bake", SCENE), "-o")
         self.assertEqual(sorted(os.listdir(self.folder)), ["file", "other"])
+
+    def test_a_scene_is_never_replaced(self):
+        self.whole("first", *SMALL)
+        os.makedirs(self.folder / "m")
+        for name in ("scene.gltf", "scene.bin"):
+            (self.folder / "m" / name).write_bytes((self.folder / "first" / name).read_bytes())
+        before = self.hashes("m")
+        self.fails(2, self.bake("m", *SMALL, scene="m/scene.gltf"), "the folder of the scene", "m/bake")
+        (self.folder / "other.json").write_text(json.dumps(
+            {"lucerna": "scene/1", "include": [{"file": "m/scene.gltf"}]}))
+        self.fails(2, self.bake("m", *SMALL, scene="other.json"), "none of a lightmap")
+        self.assertEqual(self.hashes("m"), before)
+        (self.folder / "m" / "work").mkdir()
+        self.fails(2, self.bake("m", *SMALL), "none of a lightmap")
+        before = self.hashes("first")  # a lightmap, but the scene is its copy
+        self.fails(2, self.bake("first", *SMALL, scene="first/scene.gltf"), "the folder of the scene")
+        self.assertEqual(self.hashes("first"), before)
+        self.ok(self.bake("m/bake", *SMALL, scene="m/scene.gltf"))
+
+    def test_folders_of_others_are_left_alone(self):
+        web = self.folder / "web"
+        os.makedirs(web)
+        for name in ("manifest.json", "map-1.png", "map-000.exr", "tex-0.png"):
+            (web / name).write_text('{"name": "A page", "lucerna": "no lightmap/1"}')
+        before = self.hashes("web")
+        self.fails(2, self.bake("web", *SMALL), "none of a lightmap")
+        (web / "manifest.json").unlink()
+        self.fails(2, self.bake("web", *SMALL), "none of a lightmap")
+        del before["manifest.json"]
+        self.assertEqual(self.hashes("web"), before)
+        # What else was put into a lightmap's folder stays.
+        self.ok(self.bake("ours", *SMALL))
+        names = {"map-1.png", "map-1000.txt", "tex-0.png", "notes.txt"}
+        for name in names:
+            (self.folder / "ours" / name).write_text("")
+        (self.folder / "ours" / "map-1000.png").write_text("of an older one")
+        self.ok(self.bake("ours", *SMALL))
+        self.assertEqual({path.name for path in (self.folder / "ours").iterdir()} & (names | {"map-1000.png"}), names)
 
     def limited(self, bytes_):
         return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_, bytes_))}
