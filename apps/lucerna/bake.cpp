@@ -118,6 +118,7 @@ void sayReport(const bake::BakeReport& report) {
 
 Json describe(const bake::Preflight& found) {
   return {{"not_finite", found.notFinite},
+          {"huge", found.huge},
           {"degenerate", found.degenerate},
           {"duplicate", found.duplicate},
           {"larger_than_a_map", found.shrunk},

@@ -12,8 +12,10 @@
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
 #include "bake/seconds.hpp"
+#include "bake/shadow_tracer.hpp"
 #include "bake/unit_log.hpp"
 #include "bake/write_lightmap.hpp"
+#include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "lightmap/lightmap.hpp"
 
@@ -78,13 +80,19 @@ bool holdsOthers(const fs::path& folder) {
   });
 }
 
+// What logs are checked by: light of another kind of processor differs in the last bits.
+std::uint64_t logHash(const Plan& plan) {
+  const std::string_view processor = rayInstructionSet();
+  return hashCombine(plan.hash, hashBytes(std::as_bytes(std::span(processor))));
+}
+
 // Marks what logs of other divisions into shards hold: no shard of this one writes them.
 Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& shard,
                         std::vector<bool>& done) {
   const std::string ending = fmt::format("-of-{}.log", shard.count);
   for (const fs::path& log : logsIn(folder)) {
     if (log.filename().string().ends_with(ending)) continue;
-    LUCERNA_TRY(state, readUnitLog(log, plan.hash, plan.units.size(), {}));
+    LUCERNA_TRY(state, readUnitLog(log, logHash(plan), plan.units.size(), {}));
     for (std::size_t i = 0; i < done.size(); ++i)
       if (state.done[i]) done[i] = true;
   }
@@ -118,7 +126,7 @@ Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
       progress.advance();
       return {};
     };
-    LUCERNA_TRY(state, readUnitLog(path, plan.hash, plan.units.size(), use));
+    LUCERNA_TRY(state, readUnitLog(path, logHash(plan), plan.units.size(), use));
     merged.damage.insert(merged.damage.end(), state.damage.begin(), state.damage.end());
   }
   return merged;
@@ -175,10 +183,9 @@ Status prepareFolder(const fs::path& folder, bool resume, const Shard& shard) {
 }
 
 Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
-  const Result<std::string> text = readText(folder / kManifestFile);
-  if (!text) return false;
-  const auto manifest = lightmap::manifestFrom(*text, (folder / kManifestFile).string());
   std::error_code none;
+  if (!fs::exists(folder / kManifestFile, none)) return false;
+  const auto manifest = lightmap::readManifest(folder);
   const bool unfinished = fs::exists(orderPath(folder), none);
   if (!manifest) {
     if (unfinished) return false;
@@ -211,7 +218,7 @@ void removeWork(const fs::path& folder) {
 
 Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
                   BakeReport& report) {
-  LUCERNA_TRY(log, UnitLog::open(logPath(folder, shard), plan.hash, plan.units.size()));
+  LUCERNA_TRY(log, UnitLog::open(logPath(folder, shard), logHash(plan), plan.units.size()));
   for (const std::string& damage : log.state().damage)
     report.warnings.push_back(damage + "; what it held is baked again");
   std::vector<std::uint32_t> missing = unitsOf(plan.units.size(), shard);

@@ -90,9 +90,15 @@ bool anyEmits(const World& world) {
 
 void addWarnings(Plan& plan) {
   const Charts& charts = plan.charts;
+  if (plan.world.huge > 0)
+    plan.warnings.push_back(
+        fmt::format("{} triangles are too large, with corners farther than {:.0f} km off: they are "
+                    "left out and throw no shadow",
+                    plan.world.huge, kFarthestCorner / 1000.f));
   if (charts.degenerate > 0)
-    plan.warnings.push_back(fmt::format(
-        "{} triangles have no area or are not finite and get no light", charts.degenerate));
+    plan.warnings.push_back(
+        fmt::format("{} triangles have no area, are too large or not finite and get no light",
+                    charts.degenerate));
   constexpr std::size_t kMostNamed = 5;
   for (std::size_t i = 0; i < std::min(charts.unsound.size(), kMostNamed); ++i)
     plan.warnings.push_back(charts.unsound[i]);

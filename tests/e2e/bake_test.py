@@ -11,6 +11,7 @@ import pathlib
 import random
 import re
 import resource
+import shutil
 import signal
 import struct
 import subprocess
@@ -183,21 +184,56 @@ class BakeTest(unittest.TestCase):
         """Whether so many maps are written or being written."""
         return lambda: len(list((self.folder / folder).glob("*map*"))) >= count
 
+    def random_moment(self, chance, folder, seconds):
+        """Any time, some way through the light, or while the maps are written."""
+        kind = chance.randrange(3)
+        if kind == 0:
+            end = time.monotonic() + chance.uniform(0, seconds)
+            return lambda: time.monotonic() >= end
+        if kind == 1:
+            return self.logged(folder, chance.randrange(1, 12 << 20))
+        return self.written(folder, chance.randint(1, 7))
+
     def test_what_is_killed_goes_on(self):
-        plain = self.whole("plain", *LONG)
-        seed = random.randrange(1 << 30)
+        seed = int(os.environ.get("LUCERNA_KILL_SEED", random.randrange(1 << 30)))
+        print(f"LUCERNA_KILL_SEED={seed}", end=" ", file=sys.stderr, flush=True)
         chance = random.Random(seed)
-        kills = 0
-        for number in range(5):
+        start = time.monotonic()
+        plain = self.whole("plain", *LONG)
+        seconds = time.monotonic() - start
+        wanted, kills = 20, 0
+        for number in range(wanted):
             folder = f"k{number}"
-            bytes_, files = sorted(chance.sample(range(1, 12 << 20), 2)), chance.randint(1, 7)
-            moments = [self.logged(folder, bytes_[0]), self.logged(folder, bytes_[1]),
-                       self.written(folder, files)]
-            for reached in moments:
+            for _ in range(4):  # some are over before their moment comes
+                reached = self.random_moment(chance, folder, seconds)
                 kills += self.end(folder, signal.SIGKILL, reached, *LONG, "--resume") == -signal.SIGKILL
             self.ok(self.bake(folder, *LONG, "--resume"))
-            self.assertEqual(self.hashes(folder), plain, f"seed {seed}: at {bytes_} bytes, {files} maps")
-        self.assertGreater(kills, 5, f"seed {seed}: most bakes were over before they were killed")
+            self.assertEqual(self.hashes(folder), plain, f"seed {seed}, {folder}")
+            shutil.rmtree(self.folder / folder)
+            if kills >= wanted:
+                return
+        self.fail(f"seed {seed}: {kills} of {wanted} bakes were killed, the others were over before")
+
+    def test_little_work_can_be_lost(self):
+        """Seconds of one thread's work between two records of the log: a kill loses no more of any thread's."""
+        log = self.folder / "g" / "work" / "shard-1-of-1.log"
+        process = subprocess.Popen([PROGRAM, "bake", SCENE, "-o", "g", *LONG, "--threads", "1"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        ticks = os.sysconf("SC_CLK_TCK")
+        size, last, longest, growths = 0, 0., 0., 0
+        while process.poll() is None:
+            try:
+                fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+                now, worked = log.stat().st_size, (int(fields[11]) + int(fields[12])) / ticks
+            except (FileNotFoundError, IndexError, ProcessLookupError):
+                now = 0
+            if now > size:
+                longest, growths = max(longest, worked - last), growths + 1
+                size, last = now, worked
+            time.sleep(0.005)
+        self.assertEqual(process.returncode, 0)
+        self.assertGreater(growths, 10)
+        self.assertLess(longest, 5)
 
     def test_interrupt_keeps_what_is_done(self):
         plain = self.whole("plain", *LONG)
@@ -447,6 +483,23 @@ class BakeTest(unittest.TestCase):
         for word in ("charts", "texels", "maps", "estimate", "memory"):
             self.assertIn(word, text)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_odd_triangles_are_left_out(self):
+        """No numbers, no area, and far too large: the rest is lit as without them, in shadow too."""
+        plain = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\nv 0 1 0\nv 1 1 0\nv 0 1 -1\nf 5 7 6\nf 5 6 7\n"
+        odd = "v nan 2 0\nv 1e30 2 0\nv -1e30 2 1e30\nv 1 2 0\nf 5 6 8\nf 5 6 9\nf 8 9 10\nf 6 6 7\nf 5 9 10\n"
+        looks = []
+        for name, text in (("plain", plain), ("odd", plain + odd)):
+            (self.folder / f"{name}.obj").write_text(text)
+            (self.folder / f"{name}.json").write_text(json.dumps(
+                {"lucerna": "scene/1", "include": [{"file": f"{name}.obj"}],
+                 "lights": [{"kind": "directional", "intensity": 3, "direction": [0, -1, 0]}]}))
+            run = self.ok(self.bake(name, *SMALL, scene=f"{name}.json"))
+            looks.append(json.loads(self.ok(self.lucerna("lightmap", "inspect", name, "--json")).stdout)["maps"])
+        self.assertIn("too large", run.stderr)
+        self.assertEqual([each["irradiance"] for each in looks[0]], [each["irradiance"] for each in looks[1]])
+        self.assertEqual([each["unsound"] for each in looks[1]], [0] * len(looks[1]))
+        self.assertEqual(looks[1][0]["irradiance"]["min"], 0)
 
     def test_a_light_inside_a_solid_is_found(self):
         corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]
