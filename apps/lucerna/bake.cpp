@@ -2,13 +2,13 @@
 
 #include "bake/bake.hpp"
 
-#include <chrono>
 #include <map>
 #include <memory>
 
 #include "bake/bake_order.hpp"
 #include "bake/estimate.hpp"
 #include "bake/preflight.hpp"
+#include "bake/seconds.hpp"
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
@@ -18,11 +18,7 @@
 namespace lucerna::cli {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using bake::Clock, bake::secondsSince;
 
 struct Options {
   std::string scene, folder, preset = "standard";
@@ -122,6 +118,7 @@ void sayReport(const bake::BakeReport& report) {
 
 Json describe(const bake::Preflight& found) {
   return {{"not_finite", found.notFinite},
+          {"huge", found.huge},
           {"degenerate", found.degenerate},
           {"duplicate", found.duplicate},
           {"larger_than_a_map", found.shrunk},
@@ -213,12 +210,19 @@ Result<bake::BakeReport> lightAndFinish(const Options& options, const bake::Plan
   return report;
 }
 
+Status checkOutput(const Options& options) {
+  if (options.folder.empty())
+    return error(ErrorKind::Usage,
+                 "-o: found no folder for the lightmap; wanted -o DIR, or --dry-run to write none");
+  LUCERNA_TRY_VOID(bake::checkIsApart(options.folder, options.scene));
+  return bake::checkFolder(options.folder, options.resume, options.shard);
+}
+
 Result<int> bakeScene(Options& options, bool json) {
   const auto start = Clock::now();
   setThreadCount(options.threads);
   options.bake.sampling = presets().at(options.preset);
-  if (!options.dryRun)
-    LUCERNA_TRY_VOID(bake::checkFolder(options.folder, options.resume, options.shard));
+  if (!options.dryRun) LUCERNA_TRY_VOID(checkOutput(options));
   LUCERNA_TRY(scene, scene::loadScene(options.scene));
   for (const std::string& warning : scene.warnings) log::warning("{}", warning);
   scene::animate(scene, 0.f);
@@ -265,8 +269,7 @@ void addBake(CommandLine& line) {
   CLI::App* command = addCommand(line, line.app, "bake", "bake a scene's lights into lightmaps",
                                  [&line, options] { return bakeScene(*options, line.talk.json); });
   command->add_option("SCENE", options->scene, sceneHelp())->required();
-  CLI::Option* output =
-      command->add_option("-o,--output", options->folder, "folder of the lightmap");
+  command->add_option("-o,--output", options->folder, "folder of the lightmap");
   command->add_option("--preset", options->preset, "preview, standard or final (standard)")
       ->check(oneOf({"preview", "standard", "final"}));
   addChartFlags(*command, options->bake);
@@ -332,12 +335,6 @@ void addBake(CommandLine& line) {
                     "write nothing; say what would be baked, what it would take and what is odd");
   command->add_option("--threads", options->threads, "CPU threads; 0: one a core (0)")
       ->check(wholeNumber(0, 1024));
-  command->callback([&line, options, output, action = Action([&line, options] {
-                                               return bakeScene(*options, line.talk.json);
-                                             })] {
-    if (output->count() == 0 && !options->dryRun) throw CLI::RequiredError("--output");
-    line.action = action;
-  });
 }
 
 }  // namespace lucerna::cli

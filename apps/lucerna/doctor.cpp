@@ -62,9 +62,9 @@ std::string text(const Json& document) {
                   driver["gpu_clock"].get<std::string>());
   for (const Json& feature : gl["features"])
     result += fmt::format("feature       {}\n", feature.get<std::string>());
-  result += fmt::format("limits        texture side {}, colour targets {}, samples {}\n",
-                        gl["maxTextureSide"].get<int>(), gl["maxColorTargets"].get<int>(),
-                        gl["maxSamples"].get<int>());
+  result += fmt::format("limits        texture side {}, layers {}, colour targets {}, samples {}\n",
+                        gl["maxTextureSide"].get<int>(), gl["maxTextureLayers"].get<int>(),
+                        gl["maxColorTargets"].get<int>(), gl["maxSamples"].get<int>());
   const Json& scripts = document["scripts"];
   result +=
       scripts["ok"].get<bool>()

@@ -51,6 +51,7 @@ Result<int> merge(const Options& options, bool json) {
   } else {
     LUCERNA_TRY(order, bake::readOrder(options.folder));
     const std::string& path = options.scene.empty() ? order.scene : options.scene;
+    LUCERNA_TRY_VOID(bake::checkIsApart(options.folder, path));
     LUCERNA_TRY(scene, scene::loadScene(path));
     scene::animate(scene, 0.f);
     LUCERNA_TRY(plan, bake::makePlan(scene, order.settings));

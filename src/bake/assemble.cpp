@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -172,11 +173,12 @@ void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLigh
 
 void dilate(BakedLight& baked) {
   parallelFor(baked.maps.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i)
       dilateMap(baked.maps[i], baked.texels, static_cast<int>(i));
   });
   parallelFor(baked.groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) dilateGroup(baked.groups[i], baked.texels);
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i)
+      dilateGroup(baked.groups[i], baked.texels);
   });
 }
 

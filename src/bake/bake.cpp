@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <fstream>
 #include <mutex>
 
 #include "bake/assemble.hpp"
 #include "bake/bake_order.hpp"
+#include "bake/cancelled.hpp"
 #include "bake/seconds.hpp"
+#include "bake/shadow_tracer.hpp"
 #include "bake/unit_log.hpp"
 #include "bake/write_lightmap.hpp"
+#include "core/hash.hpp"
 #include "core/parallel.hpp"
-#include "core/progress.hpp"
 #include "lightmap/lightmap.hpp"
 
 namespace lucerna::bake {
@@ -54,16 +57,33 @@ bool isTemporary(const fs::path& path) {
   return name.starts_with('.') && name.find(".tmp-") != std::string::npos;
 }
 
-// Whether anything lies there that no bake has made.
+// Whether it says that it is a lightmap's; such a file begins so.
+bool isOurs(const fs::path& manifest) {
+  std::string start(64, '\0');
+  std::ifstream(manifest, std::ios::binary).read(start.data(), std::ssize(start));
+  return start.find("\"lucerna\": \"lightmap/") != std::string::npos;
+}
+
+// Whether anything lies there that no bake has made. One that was killed leaves its order in
+// DIR/work or, if that was removed, the layout and what is named like a lightmap's files.
 bool holdsOthers(const fs::path& folder) {
   std::error_code failed;
-  if (!fs::is_directory(folder, failed) || fs::exists(folder / "manifest.json", failed) ||
-      fs::exists(folder / kWorkFolder, failed))
-    return false;
+  if (!fs::is_directory(folder, failed)) return false;
+  if (fs::exists(folder / kManifestFile, failed)) return !isOurs(folder / kManifestFile);
+  if (fs::exists(orderPath(folder), failed)) return false;
+  const bool laidOut = fs::exists(folder / kLayoutFile, failed);
   const fs::directory_iterator files(folder, failed);
-  return std::any_of(begin(files), end(files), [](const fs::directory_entry& file) {
-    return !isTemporary(file.path()) && !isLightmapFile(file.path().filename().string());
+  return std::any_of(begin(files), end(files), [&](const fs::directory_entry& file) {
+    const std::string name = file.path().filename().string();
+    if (name == kWorkFolder) return !fs::is_empty(file.path(), failed);
+    return !isTemporary(file.path()) && !(laidOut && isLightmapFile(name));
   });
+}
+
+// What logs are checked by: light of another kind of processor differs in the last bits.
+std::uint64_t logHash(const Plan& plan) {
+  const std::string_view processor = rayInstructionSet();
+  return hashCombine(plan.hash, hashBytes(std::as_bytes(std::span(processor))));
 }
 
 // Marks what logs of other divisions into shards hold: no shard of this one writes them.
@@ -72,7 +92,7 @@ Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& s
   const std::string ending = fmt::format("-of-{}.log", shard.count);
   for (const fs::path& log : logsIn(folder)) {
     if (log.filename().string().ends_with(ending)) continue;
-    LUCERNA_TRY(state, readUnitLog(log, plan.hash, plan.units.size(), {}));
+    LUCERNA_TRY(state, readUnitLog(log, logHash(plan), plan.units.size(), {}));
     for (std::size_t i = 0; i < done.size(); ++i)
       if (state.done[i]) done[i] = true;
   }
@@ -92,8 +112,10 @@ Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
                 .done = std::vector<bool>(plan.units.size(), false),
                 .logs = logsIn(folder),
                 .damage = {}};
+  Progress progress("reading logs", plan.units.size());
   for (const fs::path& path : merged.logs) {
     const auto use = [&](std::uint32_t unit, std::span<const std::byte> payload) -> Status {
+      LUCERNA_TRY_VOID(checkGoesOn());
       if (merged.done[unit]) return {};
       const auto light = unitLightFrom(payload, plan, plan.units[unit]);
       if (!light)
@@ -101,9 +123,10 @@ Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
                      path.string());
       place(merged.baked, plan, plan.units[unit], *light);
       merged.done[unit] = true;
+      progress.advance();
       return {};
     };
-    LUCERNA_TRY(state, readUnitLog(path, plan.hash, plan.units.size(), use));
+    LUCERNA_TRY(state, readUnitLog(path, logHash(plan), plan.units.size(), use));
     merged.damage.insert(merged.damage.end(), state.damage.begin(), state.damage.end());
   }
   return merged;
@@ -122,6 +145,17 @@ Status checkComplete(const Merged& merged, const fs::path& folder) {
 }
 
 }  // namespace
+
+Status checkIsApart(const fs::path& folder, const std::string& scene) {
+  std::error_code missing;
+  if (scene.starts_with("builtin:") ||
+      !fs::equivalent(fs::absolute(scene, missing).parent_path(), folder, missing))
+    return {};
+  return error(ErrorKind::Usage,
+               "-o: '{}' is the folder of the scene '{}', and a lightmap's files could replace the "
+               "scene's; wanted a folder of its own, as '{}'",
+               folder.string(), scene, (folder / "bake").string());
+}
 
 Status checkFolder(const fs::path& folder, bool resume, const Shard& shard) {
   std::error_code failed;
@@ -149,10 +183,9 @@ Status prepareFolder(const fs::path& folder, bool resume, const Shard& shard) {
 }
 
 Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
-  const Result<std::string> text = readText(folder / "manifest.json");
-  if (!text) return false;
-  const auto manifest = lightmap::manifestFrom(*text, (folder / "manifest.json").string());
   std::error_code none;
+  if (!fs::exists(folder / kManifestFile, none)) return false;
+  const auto manifest = lightmap::readManifest(folder);
   const bool unfinished = fs::exists(orderPath(folder), none);
   if (!manifest) {
     if (unfinished) return false;
@@ -185,7 +218,7 @@ void removeWork(const fs::path& folder) {
 
 Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
                   BakeReport& report) {
-  LUCERNA_TRY(log, UnitLog::open(logPath(folder, shard), plan.hash, plan.units.size()));
+  LUCERNA_TRY(log, UnitLog::open(logPath(folder, shard), logHash(plan), plan.units.size()));
   for (const std::string& damage : log.state().damage)
     report.warnings.push_back(damage + "; what it held is baked again");
   std::vector<std::uint32_t> missing = unitsOf(plan.units.size(), shard);
@@ -202,18 +235,20 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
   const auto lit = Clock::now();
   std::uint64_t texels = 0;
   for (const std::uint32_t unit : missing) texels += plan.units[unit].texels;
-  Progress progress("lighting", texels);
+  Progress progress("lighting", texels, "rays");
   FirstError failure;
   std::mutex counting;
   constexpr std::size_t kGrain = 4;  // units that share what a thread makes first
   parallelFor(missing.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     UnitLighter lighter(plan, scene);
+    std::uint64_t rays = 0;
     for (std::size_t i = begin; i < end; ++i) {
       if (Progress::cancelled() || failure.any()) break;
       const Unit& unit = plan.units[missing[i]];
       if (Status kept = log.append(missing[i], toBytes(lighter.light(unit))); !kept)
         failure.set(kept.error());
-      progress.advance(unit.texels);
+      progress.advance(unit.texels,
+                       lighter.counters().rays - std::exchange(rays, lighter.counters().rays));
     }
     const std::scoped_lock lock(counting);
     report.counters.add(lighter.counters());
@@ -221,9 +256,7 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
   });
   report.seconds.light += secondsSince(lit);
   LUCERNA_TRY_VOID(failure.status());
-  if (Progress::cancelled())
-    return error(ErrorKind::Cancelled, "cancelled; what is finished is kept, go on with --resume");
-  return {};
+  return checkGoesOn();
 }
 
 Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
@@ -231,7 +264,9 @@ Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
   LUCERNA_TRY(merged, readLogs(plan, folder));
   LUCERNA_TRY_VOID(checkComplete(merged, folder));
   dilate(merged.baked);
+  LUCERNA_TRY_VOID(checkGoesOn());
   report.seams = closeSeams(plan, merged.baked);
+  LUCERNA_TRY_VOID(checkGoesOn());
   LUCERNA_TRY_VOID(writeLightmap(plan, merged.baked, folder, report.texels));
   removeWork(folder);
   report.seconds.finish += secondsSince(start);

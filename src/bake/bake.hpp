@@ -28,6 +28,9 @@ struct BakeReport {
   std::vector<std::string> warnings;
 };
 
+// ErrorKind::Usage: DIR is the folder that the scene's file, if it is one, lies in.
+Status checkIsApart(const std::filesystem::path& folder, const std::string& scene);
+
 // Asks before long work. ErrorKind::Usage: DIR/work holds an unfinished part of the same number and
 // `resume` is not set; DIR is a file, or holds other files than a lightmap's. ErrorKind::Failed: it
 // cannot be written.
@@ -52,6 +55,7 @@ Status lightShard(const Plan& plan, const std::filesystem::path& folder, const S
                   BakeReport& report);
 
 // Reads all logs in DIR/work and writes maps, layout and manifest; then DIR/work is removed.
+// ErrorKind::Cancelled after Ctrl-C: DIR/work is kept, and the manifest is not written.
 // ErrorKind::Failed: units are missing (it says of which shards, and which logs are damaged where).
 Status finish(const Plan& plan, const std::filesystem::path& folder, BakeReport& report);
 

@@ -124,6 +124,17 @@ Status checkSame(const BakeOrder& there, const BakeOrder& here, const fs::path& 
       folder.string(), there.scene, work);
 }
 
+// Whole, so that nobody reads a part of it. Where a file system has no hard links, two that write
+// at the same time may both replace it: logs of another plan or processor are refused later.
+Status writeUnlessThere(const fs::path& path, std::string_view text) {
+  std::error_code failed;
+  if (fs::exists(path, failed)) return {};
+  LUCERNA_TRY(file, AtomicFile::create(path));
+  LUCERNA_TRY_VOID(writeText(file.temporary(), text));
+  fs::create_hard_link(file.temporary(), path, failed);
+  return failed && failed != std::errc::file_exists ? file.commit() : Status();
+}
+
 std::string absoluteScene(const std::string& scene) {
   if (scene.starts_with("builtin:")) return scene;
   std::error_code failed;
@@ -188,9 +199,8 @@ Result<BakeOrder> readOrder(const fs::path& folder) {
 }
 
 Status keepOrder(const fs::path& folder, const BakeOrder& order) {
-  const fs::path path = orderPath(folder);
-  std::error_code none;
-  if (!fs::exists(path, none)) return writeText(path, toJson(order));
+  // Of shards that start together one writes it, and all read what is there then.
+  LUCERNA_TRY_VOID(writeUnlessThere(orderPath(folder), toJson(order)));
   LUCERNA_TRY(there, readOrder(folder));
   return checkSame(there, order, folder);
 }

@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <latch>
+#include <thread>
+
 #include "bake/shards.hpp"
 #include "core/test_folder.hpp"
 
@@ -84,6 +87,29 @@ TEST(BakeOrder, WhatDiffersIsNamed) {
   elsewhere.processor = "sse4.2";
   EXPECT_THAT(keepOrder(folder.path(), elsewhere).error().message,
               HasSubstr("of processors with avx2, this one has sse4.2"));
+}
+
+TEST(BakeOrder, OfThoseWhoStartTogetherOneCounts) {
+  constexpr int kShards = 4;
+  for (int round = 0; round < 50; ++round) {
+    const TestFolder folder;
+    std::filesystem::create_directories(folder / kWorkFolder);
+    std::latch start(kShards);
+    std::array<bool, kShards> kept{};
+    std::vector<std::jthread> shards;
+    for (int i = 0; i < kShards; ++i)
+      shards.emplace_back([&, i] {
+        BakeOrder order = someOrder();
+        order.settings.pack.mostMaps = i + 1;
+        start.arrive_and_wait();
+        kept[static_cast<std::size_t>(i)] = static_cast<bool>(keepOrder(folder.path(), order));
+      });
+    shards.clear();
+    const auto there = readOrder(folder.path());
+    ASSERT_TRUE(there);
+    EXPECT_EQ(std::ranges::count(kept, true), 1);
+    EXPECT_TRUE(kept[static_cast<std::size_t>(there->settings.pack.mostMaps - 1)]);
+  }
 }
 
 TEST(Shards, ShareOutAllUnitsOnce) {

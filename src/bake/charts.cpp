@@ -10,6 +10,7 @@
 #include "bake/pair_charts.hpp"
 #include "core/check.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -188,8 +189,10 @@ void addPairs(Charts& result, const World& world, std::uint32_t index,
 Charts makeCharts(const World& world, const ChartSettings& settings) {
   CHECK(settings.density > 0.f && settings.mostSide > 0);
   std::vector<Charts> parts(world.objects.size());
+  Progress progress("cutting charts", world.triangleCount());
   parallelFor(parts.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
+      progress.advance(world.objects[i].triangleCount);
       if (!world.objects[i].receives) continue;
       const auto index = static_cast<std::uint32_t>(i);
       if (settings.unwrap == Unwrap::Pairs)

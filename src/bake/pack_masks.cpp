@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "bake/cancelled.hpp"
 #include "bake/free_squares.hpp"
 #include "bake/mask_squares.hpp"
 #include "core/check.hpp"
@@ -118,7 +119,10 @@ Result<Packing> packMasks(std::span<const TexelMask> masks, const PackSettings& 
   Maps maps(settings);
   Shape shape;
   const TexelMask* last = nullptr;
+  Progress progress("packing charts", masks.size());
   for (const std::uint32_t index : packingOrder(masks)) {
+    LUCERNA_TRY_VOID(checkGoesOn());
+    progress.advance();
     if (last == nullptr || *last != masks[index]) shape = shapeOf(masks[index]);
     last = &masks[index];
     auto place = maps.place(shape);

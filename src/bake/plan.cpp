@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "bake/cancelled.hpp"
 #include "bake/plan_hash.hpp"
 #include "core/text.hpp"
 
@@ -89,9 +90,15 @@ bool anyEmits(const World& world) {
 
 void addWarnings(Plan& plan) {
   const Charts& charts = plan.charts;
+  if (plan.world.huge > 0)
+    plan.warnings.push_back(
+        fmt::format("{} triangles are too large, with corners farther than {:.0f} km off: they are "
+                    "left out and throw no shadow",
+                    plan.world.huge, kFarthestCorner / 1000.f));
   if (charts.degenerate > 0)
-    plan.warnings.push_back(fmt::format(
-        "{} triangles have no area or are not finite and get no light", charts.degenerate));
+    plan.warnings.push_back(
+        fmt::format("{} triangles have no area, are too large or not finite and get no light",
+                    charts.degenerate));
   constexpr std::size_t kMostNamed = 5;
   for (std::size_t i = 0; i < std::min(charts.unsound.size(), kMostNamed); ++i)
     plan.warnings.push_back(charts.unsound[i]);
@@ -122,13 +129,16 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   plan.settings = settings;
   plan.world = makeWorld(scene);
   plan.charts = chartsOf(plan.world, settings);
+  LUCERNA_TRY_VOID(checkGoesOn());
   if (plan.charts.charts.empty())
     return error(ErrorKind::Input,
                  "'{}': found no triangle that takes light; wanted a scene with surfaces",
                  scene.name);
   auto places = packed(plan.charts, settings);
   if (!places) {
+    LUCERNA_TRY_VOID(checkGoesOn());
     const float fits = densityThatFits(plan.world, plan.charts, settings);
+    LUCERNA_TRY_VOID(checkGoesOn());
     if (fits == 0.f) return places.error();
     return error(places.error().kind, "{}: --density {:g} fits", places.error().message, fits);
   }

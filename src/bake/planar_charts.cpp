@@ -21,10 +21,14 @@ struct Triangle {
   float area = 0.f;
 };
 
-struct Edge {
-  std::uint32_t low, high, triangle;
-  auto operator<=>(const Edge&) const = default;
+// Of a triangle: from a corner to the next, counter-clockwise.
+struct Side {
+  std::uint32_t from = 0, to = 0, triangle = 0;
+  auto operator<=>(const Side&) const = default;
 };
+
+// Of the sides that very many triangles share, so many are tried.
+constexpr std::size_t kMostTried = 32;
 
 // What grows charts over a mesh.
 class Grower {
@@ -43,9 +47,11 @@ class Grower {
       triangles_.push_back(triangle);
       const auto number = static_cast<std::uint32_t>(i / 3);
       if (triangle.area > 0.f)
-        for (int k = 0; k < 3; ++k) edges_.push_back(edgeOf(number, k));
+        for (const auto& [from, to] : endsOf(number)) sides_.push_back({from, to, number});
     }
-    std::ranges::sort(edges_);
+    std::ranges::sort(sides_);
+    firstFree_.resize(sides_.size());
+    std::iota(firstFree_.begin(), firstFree_.end(), std::size_t{0});
   }
 
   PlanarCharts grow() {
@@ -65,13 +71,11 @@ class Grower {
 
  private:
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  using Side = std::pair<std::uint32_t, std::uint32_t>;  // from a corner to the next
+  using Ends = std::pair<std::uint32_t, std::uint32_t>;  // of a side
 
-  Edge edgeOf(std::uint32_t triangle, int side) const {
-    const auto& corners = triangles_[triangle].corners;
-    const std::uint32_t a = corners[static_cast<std::size_t>(side)],
-                        b = corners[static_cast<std::size_t>(side + 1) % 3];
-    return {std::min(a, b), std::max(a, b), triangle};
+  std::array<Ends, 3> endsOf(std::uint32_t triangle) const {
+    const auto& c = triangles_[triangle].corners;
+    return {{{c[0], c[1]}, {c[1], c[2]}, {c[2], c[0]}}};
   }
 
   PlanarChart chartFrom(std::uint32_t seed, std::uint32_t number) {
@@ -81,17 +85,28 @@ class Grower {
     take(chart, number, seed);
     const vec3 onPlane = positions_[triangles_[seed].corners[0]];
     for (std::size_t next = 0; next < chart.triangles.size(); ++next)
-      for (int side = 0; side < 3; ++side) {
-        const Edge edge = edgeOf(chart.triangles[next], side);
-        const auto first = std::ranges::lower_bound(edges_, Edge{edge.low, edge.high, 0});
-        for (auto other = first;
-             other != edges_.end() && other->low == edge.low && other->high == edge.high; ++other)
-          if (chartOf_[other->triangle] == kNone && liesIn(chart, onPlane, other->triangle))
-            take(chart, number, other->triangle);
-      }
+      for (const Ends& side : endsOf(chart.triangles[next]))
+        takeAcross(chart, number, onPlane, side);
     std::ranges::sort(chart.triangles);
     layFlat(chart);
     return chart;
+  }
+
+  // Takes the first that goes on beyond a side of the chart's: what does runs the other way there.
+  void takeAcross(PlanarChart& chart, std::uint32_t number, vec3 onPlane, const Ends& side) {
+    const auto first = static_cast<std::size_t>(
+        std::ranges::lower_bound(sides_, Side{side.second, side.first, 0}) - sides_.begin());
+    const auto isThere = [&](std::size_t i) {
+      return i < sides_.size() && sides_[i].from == side.second && sides_[i].to == side.first;
+    };
+    if (!isThere(first)) return;
+    std::size_t& free = firstFree_[first];
+    while (isThere(free) && chartOf_[sides_[free].triangle] != kNone) ++free;
+    for (std::size_t i = free; isThere(i) && i < free + kMostTried; ++i) {
+      const std::uint32_t other = sides_[i].triangle;
+      if (chartOf_[other] == kNone && liesIn(chart, onPlane, other) && take(chart, number, other))
+        return;
+    }
   }
 
   bool liesIn(const PlanarChart& chart, vec3 onPlane, std::uint32_t triangle) const {
@@ -106,14 +121,14 @@ class Grower {
   // Takes a triangle into the chart that is grown. Of its sides, which all run counter-clockwise,
   // none may run as one of the chart's does: there it would lie, like a copy, on what is there
   // already.
-  void take(PlanarChart& chart, std::uint32_t number, std::uint32_t triangle) {
-    const auto& corners = triangles_[triangle].corners;
-    const std::array<Side, 3> sides{
-        {{corners[0], corners[1]}, {corners[1], corners[2]}, {corners[2], corners[0]}}};
-    if (std::ranges::any_of(sides, [&](const Side& side) { return taken_.contains(side); })) return;
+  bool take(PlanarChart& chart, std::uint32_t number, std::uint32_t triangle) {
+    const std::array<Ends, 3> sides = endsOf(triangle);
+    if (std::ranges::any_of(sides, [&](const Ends& side) { return taken_.contains(side); }))
+      return false;
     taken_.insert(sides.begin(), sides.end());
     chartOf_[triangle] = number;
     chart.triangles.push_back(triangle);
+    return true;
   }
 
   // In the smallest rectangle around it.
@@ -122,9 +137,10 @@ class Grower {
   std::span<const vec3> positions_;
   PlanarSettings settings_;
   std::vector<Triangle> triangles_;
-  std::vector<Edge> edges_;
+  std::vector<Side> sides_;             // sorted
+  std::vector<std::size_t> firstFree_;  // of the first of equal sides: those before it are taken
   std::vector<std::uint32_t> chartOf_;
-  std::set<Side> taken_;  // of the chart that is grown
+  std::set<Ends> taken_;  // of the chart that is grown
 };
 
 void Grower::layFlat(PlanarChart& chart) const {

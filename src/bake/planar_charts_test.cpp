@@ -130,6 +130,24 @@ TEST(PlanarCharts, KeepApartWhatLiesOnEachOther) {
   EXPECT_GE(found.charts.size(), 3u);
 }
 
+// Far too many for each to look at each.
+TEST(PlanarCharts, TakeTimeByTheTriangleOfCopies) {
+  constexpr std::uint32_t kCopies = 100'000;
+  Mesh triangles;
+  triangles.add({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+  triangles.add({1, 0, 0}, {1, 1, 0}, {0, 1, 0});
+  Mesh mesh = triangles;  // all copies of the first, then all of the second
+  mesh.indices.clear();
+  for (const std::size_t first : {0u, 3u})
+    for (std::size_t i = 0; i < kCopies; ++i)
+      mesh.indices.insert(mesh.indices.end(), &triangles.indices[first],
+                          &triangles.indices[first] + 3);
+  const PlanarCharts found = mesh.charts();
+  ASSERT_EQ(found.charts.size(), kCopies);
+  for (std::uint32_t i = 0; i < kCopies; ++i)
+    ASSERT_EQ(found.charts[i].triangles, (std::vector<std::uint32_t>{i, i + kCopies}));
+}
+
 TEST(PlanarCharts, NameDegenerateTriangles) {
   Mesh mesh;
   mesh.addQuad({100, 0, 0}, {1, 0, 0}, {0, 1, 0});

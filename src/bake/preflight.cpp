@@ -157,6 +157,8 @@ Preflight inspect(const Plan& plan) {
   Preflight result;
   result.shrunk = plan.charts.shrunk;
   countTriangles(plan.world, result);
+  result.huge = plan.world.huge;
+  result.notFinite -= result.huge;
   countObjects(plan.world, result);
   askLights(plan, result);
   return result;

@@ -67,6 +67,19 @@ TEST(Preflight, CountsWhatMovesAndIsUnlit) {
   EXPECT_EQ(inspected(scene).moving, 0u);
 }
 
+TEST(Preflight, NamesWhatIsHuge) {
+  scene::Scene scene = oddScene();
+  scene.meshes[0].positions.push_back(vec3(2, 1e30f, 0));
+  scene.meshes[0].indices.insert(scene.meshes[0].indices.end(), {0, 1, 6, 1, 4, 6});
+  const auto plan = makePlan(scene, {});
+  ASSERT_TRUE(plan);
+  const Preflight found = inspect(*plan);
+  EXPECT_EQ(found.huge, 2u);
+  EXPECT_EQ(found.notFinite, 1u);
+  EXPECT_THAT(plan->warnings, ::testing::Contains(HasSubstr("2 triangles are too large")));
+  EXPECT_THAT(inspected(oddScene()).huge, 0u);
+}
+
 // A closed box, fronts outwards, and the same with fronts inwards: a room.
 scene::Scene boxScene(bool room) {
   scene::Scene scene = oddScene();

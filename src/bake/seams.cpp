@@ -1,11 +1,12 @@
 #include "bake/seams.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
+#include "bake/seconds.hpp"
 #include "bake/solve_seams.hpp"
 #include "core/parallel.hpp"
+#include "core/progress.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -105,7 +106,8 @@ std::uint64_t solveChannel(const SeamSystem& system, const SeamPart& part, int c
 }
 
 // Returns the most iterations of a part.
-std::uint64_t solveMaps(const SeamSystem& system, BakedLight& baked, const Light& light) {
+std::uint64_t solveMaps(const SeamSystem& system, BakedLight& baked, const Light& light,
+                        Progress& progress) {
   std::vector<dvec3> values;
   values.reserve(system.places.size());
   for (const TexelPlace& place : system.places)
@@ -113,10 +115,11 @@ std::uint64_t solveMaps(const SeamSystem& system, BakedLight& baked, const Light
   std::vector<std::uint64_t> iterations(3 * system.parts.size());
   constexpr std::size_t kGrain = 3;
   parallelFor(iterations.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
       const SeamPart& part = system.parts[i % system.parts.size()];
       iterations[i] = solveChannel(system, part, static_cast<int>(i / system.parts.size()),
                                    std::span(values).subspan(part.firstTexel, part.texels));
+      progress.advance();
     }
   });
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -138,6 +141,7 @@ void solveGroup(const SeamSystem& system, std::vector<LitTexel>& lit, const Ligh
   std::size_t at = 0;
   std::vector<dvec3> values;
   for (const SeamPart& part : system.parts) {
+    if (Progress::cancelled()) return;
     const std::size_t first = at;
     for (; at < given.size() && given[at].unknown < part.firstTexel + part.texels; ++at) continue;
     if (at == first) continue;
@@ -164,26 +168,30 @@ void solveGroup(const SeamSystem& system, std::vector<LitTexel>& lit, const Ligh
 }  // namespace
 
 SeamReport closeSeams(const Plan& plan, BakedLight& baked) {
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   const Light light(*plan.world.scene);
   const std::vector<Seam> seams = findSeams(plan);
-  if (seams.empty()) return {};
+  if (seams.empty() || Progress::cancelled()) return {};
   const auto tracer = makeEmbreeTracer(plan.world);
   const SeamSystem system =
       seamSystem(seams, seamPoints(seams, 0, *tracer), seamPoints(seams, 1, *tracer), baked.texels);
+  if (Progress::cancelled()) return {};
+  Progress progress("closing seams", 3 * system.parts.size() + baked.groups.size());
   SeamReport report;
   report.seams = seams.size();
   report.texels = system.places.size();
   report.samples = system.samples.size();
   report.parts = system.parts.size();
   report.before = stepsOf(system, sumOf(system, baked, light));
-  report.mostIterations = solveMaps(system, baked, light);
+  report.mostIterations = solveMaps(system, baked, light, progress);
   parallelFor(baked.groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) solveGroup(system, baked.groups[i], light);
+    for (std::size_t i = begin; i < end; ++i) {
+      solveGroup(system, baked.groups[i], light);
+      progress.advance();
+    }
   });
   report.after = stepsOf(system, sumOf(system, baked, light));
-  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-  report.seconds = seconds.count();
+  report.seconds = secondsSince(start);
   return report;
 }
 

@@ -30,7 +30,7 @@ struct SeamReport {
 
 // After dilate(): what that gave texels beside the charts is where they start. The maps and each
 // group are solved alike, so that a group's light and the rest still add up. The same result for
-// any number of threads.
+// any number of threads. Ctrl-C (Progress::cancelled()) ends it early, with some seams open.
 SeamReport closeSeams(const Plan& plan, BakedLight& baked);
 
 }  // namespace lucerna::bake

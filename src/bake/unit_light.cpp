@@ -15,11 +15,6 @@
 namespace lucerna::bake {
 namespace {
 
-// Of lights so strong that their sum is no number nothing is stored.
-float storable(float irradiance) {
-  return std::isfinite(irradiance) ? std::min(irradiance, kLargestHalf) : 0.f;
-}
-
 Aabb boundsOf(const World& world) {
   Aabb box;
   for (const std::uint32_t index : world.indices)
@@ -81,6 +76,10 @@ bool isSound(const BlockLight& light, const Block& block, std::size_t groups) {
 }
 
 }  // namespace
+
+float storable(float irradiance) {
+  return std::isnan(irradiance) ? 0.f : std::min(irradiance, kLargestHalf);
+}
 
 Bytes toBytes(const UnitLight& light) {
   ByteWriter writer;

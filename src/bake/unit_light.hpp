@@ -27,6 +27,9 @@ struct UnitLight {
   std::vector<BlockLight> blocks;  // as the unit's
 };
 
+// What a half holds of it: the largest one at most. NaN is 0.
+float storable(float irradiance);
+
 Bytes toBytes(const UnitLight& light);
 // Nothing if the bytes are no light of that unit.
 std::optional<UnitLight> unitLightFrom(std::span<const std::byte> bytes, const Plan& plan,

@@ -87,9 +87,11 @@ Result<Scan> scan(int file, const std::filesystem::path& path, std::uint64_t pla
     return result;
   }
   if (header.planHash != planHash || header.units != units)
-    return error(ErrorKind::Input,
-                 "{}: is of another scene or other settings; remove it to bake that part again",
-                 path.string());
+    return error(
+        ErrorKind::Input,
+        "{}: is of another scene, other settings or another kind of processor; remove it to "
+        "bake that part again",
+        path.string());
   std::uint64_t at = sizeof header;
   Bytes payload;
   for (; at < size;) {

@@ -1,5 +1,8 @@
 #include "bake/world.hpp"
 
+#include <cmath>
+#include <limits>
+
 namespace lucerna::bake {
 namespace {
 
@@ -7,6 +10,24 @@ namespace {
 vec3 unitOrZero(vec3 v) {
   const float length = glm::length(v);
   return length > 0.f ? v / length : vec3(0.f);
+}
+
+// NaN is not.
+bool isFar(vec3 p) {
+  return std::abs(p.x) > kFarthestCorner || std::abs(p.y) > kFarthestCorner ||
+         std::abs(p.z) > kFarthestCorner;
+}
+
+// Makes what lies too far off no number; gives the count of triangles that have such corners.
+std::size_t dropHuge(std::span<vec3> positions, const scene::Mesh& mesh) {
+  std::size_t huge = 0;
+  for (std::size_t i = 0; i < 3 * mesh.triangleCount(); i += 3)
+    if (isFar(positions[mesh.indices[i]]) || isFar(positions[mesh.indices[i + 1]]) ||
+        isFar(positions[mesh.indices[i + 2]]))
+      ++huge;
+  for (vec3& p : positions)
+    if (isFar(p)) p = vec3(std::numeric_limits<float>::quiet_NaN());
+  return huge;
 }
 
 void addObject(World& world, std::uint32_t index) {
@@ -22,6 +43,7 @@ void addObject(World& world, std::uint32_t index) {
 
   const auto firstVertex = static_cast<std::uint32_t>(world.positions.size());
   for (const vec3 p : mesh.positions) world.positions.emplace_back(worldFromObject * vec4(p, 1.f));
+  world.huge += dropHuge(std::span(world.positions).subspan(firstVertex), mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i)
     world.normals.push_back(
         mesh.normals.empty() ? vec3(0.f) : unitOrZero(side * (cofactors * mesh.normals[i])));

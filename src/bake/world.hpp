@@ -17,14 +17,19 @@ struct WorldObject {
   bool mirrored = false;  // the front of its triangles is their clockwise side
 };
 
+// m from the origin, along each axis: where floats tell 6 cm. Rays of a sun are as long as the
+// scene and miss what is nearer to their ends than a float tells at such a length.
+inline constexpr float kFarthestCorner = 1e6f;
+
 // The scene outlives it.
 struct World {
   const scene::Scene* scene = nullptr;
-  std::vector<vec3> positions;         // m
-  std::vector<vec3> normals;           // unit, towards the front; as positions
+  std::vector<vec3> positions;  // m, within kFarthestCorner; else NaN: its triangles are none
+  std::vector<vec3> normals;    // unit, towards the front; as positions
   std::vector<std::uint32_t> indices;  // three a triangle, as the meshes order them
   std::vector<WorldObject> objects;    // those with triangles
   std::vector<std::uint32_t> owners;   // of each triangle, its place in objects
+  std::size_t huge = 0;                // triangles with a corner that lies farther off
 
   std::size_t triangleCount() const { return indices.size() / 3; }
   std::span<const std::uint32_t> indicesOf(const WorldObject& object) const {

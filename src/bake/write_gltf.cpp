@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bake/cancelled.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "image/image_file.hpp"
@@ -27,10 +28,14 @@ Result<FileEntry> writePicture(const Image& map, const fs::path& folder, const s
 Status writePictures(const BakedLight& baked, const fs::path& folder,
                      std::vector<FileEntry>& files) {
   std::vector<std::optional<Result<FileEntry>>> entries(baked.maps.size());
+  Progress progress("writing the glTF copy", entries.size());
   parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
       entries[i] = writePicture(baked.maps[i], folder, pictureName(i));
+      progress.advance();
+    }
   });
+  LUCERNA_TRY_VOID(checkGoesOn());
   for (auto& entry : entries) {
     if (!*entry) return entry->error();
     files.push_back(std::move(**entry));

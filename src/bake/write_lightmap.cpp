@@ -5,12 +5,12 @@
 #include <set>
 
 #include "bake/bake_order.hpp"
+#include "bake/cancelled.hpp"
 #include "bake/make_patch.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
-#include "core/progress.hpp"
 #include "image/image_file.hpp"
 #include "image/ktx2.hpp"
 #include "lightmap/lightmap.hpp"
@@ -22,8 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using lightmap::FileEntry;
 using lightmap::Manifest;
-
-constexpr const char *kManifestFile = "manifest.json", *kLayoutFile = "layout.bin";
 
 vec3 largestOf(const Image& map) {
   vec3 largest(0.f);
@@ -87,11 +85,12 @@ Status writeMaps(const Plan& plan, const BakedLight& baked, const fs::path& fold
   std::vector<std::optional<Result<lightmap::MapEntry>>> entries(baked.maps.size());
   Progress progress("writing maps", baked.maps.size());
   parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
       entries[i] = writeMap(plan, baked, i, folder);
       progress.advance();
     }
   });
+  LUCERNA_TRY_VOID(checkGoesOn());
   for (auto& entry : entries) {
     if (!*entry) return entry->error();
     manifest.maps.push_back(std::move(**entry));
@@ -141,11 +140,15 @@ Status writePatches(const Plan& plan, const BakedLight& baked, const lightmap::L
   const PatchMaker maker(layout, used);
   const float white = irradianceOfWhite(*plan.world.scene);
   std::vector<MadePatch> made(plan.groups.size());
+  Progress progress("making patches", made.size() - 1);
   parallelFor(made.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin + 1; i < end + 1; ++i)
+    for (std::size_t i = begin + 1; i < end + 1 && !Progress::cancelled(); ++i) {
       made[i] = makePatch(maker, plan.groups[i], baked.groups[i], white);
+      progress.advance();
+    }
   });
   for (std::size_t i = 1; i < made.size(); ++i) {
+    LUCERNA_TRY_VOID(checkGoesOn());
     lightmap::PatchEntry entry;
     entry.group = plan.groups[i].name;
     LUCERNA_TRY(file,
@@ -206,12 +209,17 @@ void removeOthers(const fs::path& folder, const Manifest& manifest) {
 }  // namespace
 
 bool isLightmapFile(const std::string& name) {
-  const auto isNumbered = [&](std::string_view start) {
-    return name.starts_with(start) && name.size() > start.size() && name[start.size()] >= '0' &&
-           name[start.size()] <= '9';
+  // Its start, three digits or more, and how it ends.
+  const auto isNumbered = [&](std::string_view start,
+                              std::initializer_list<std::string_view> ends) {
+    if (!name.starts_with(start)) return false;
+    const std::size_t digits = name.find_first_not_of("0123456789", start.size());
+    return digits != std::string::npos && digits >= start.size() + 3 &&
+           std::ranges::find(ends, std::string_view(name).substr(digits)) != ends.end();
   };
   return name == kManifestFile || name == kLayoutFile || name == "scene.gltf" ||
-         name == "scene.bin" || isNumbered("map-") || isNumbered("patch-") || isNumbered("tex-");
+         name == "scene.bin" || isNumbered("patch-", {".bin"}) || isNumbered("tex-", {".png"}) ||
+         isNumbered("map-", {".exr", ".hdr", ".png", ".rgb9e5.ktx2", ".bc6h.ktx2"});
 }
 
 Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& folder,
@@ -224,6 +232,7 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   LUCERNA_TRY_VOID(writeMaps(plan, baked, folder, manifest));
   LUCERNA_TRY_VOID(writePatches(plan, baked, layout, folder, manifest));
   LUCERNA_TRY_VOID(writeGltf(plan, baked, layout, folder, manifest.gltf));
+  LUCERNA_TRY_VOID(checkGoesOn());
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / kManifestFile, lightmap::toJson(manifest)));

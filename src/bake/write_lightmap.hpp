@@ -10,9 +10,12 @@ namespace lucerna::bake {
 
 // Every file is whole or not there; the manifest comes last, and then files of a bake that it does
 // not name are removed: of an earlier one, or of one that was killed. texels: how many lie on the
-// scene, for the report.
+// scene, for the report. ErrorKind::Cancelled after Ctrl-C: the manifest is not written.
 Status writeLightmap(const Plan& plan, const BakedLight& baked, const std::filesystem::path& folder,
                      std::uint64_t& texels);
+
+inline constexpr const char *kManifestFile = "manifest.json",  // the last that is written
+    *kLayoutFile = "layout.bin";                               // the first
 
 // Whether a file may be one of a bake's, by its name.
 bool isLightmapFile(const std::string& name);

@@ -37,26 +37,34 @@ std::string minutesAndSeconds(double seconds) {
 }  // namespace
 
 struct Progress::State {
-  std::string label;
+  std::string label, counted;
   std::uint64_t total;
   bool terminal = isatty(STDERR_FILENO) == 1;
   Clock::time_point start = Clock::now();
-  std::atomic<std::uint64_t> done{0};
+  std::atomic<std::uint64_t> done{0}, counts{0};
   std::mutex mutex;  // guards what follows and the writing
   Clock::time_point nextShow;
   bool barShown = false;
 
+  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
   std::string remaining(double share) const {
     if (share <= 0) return "?";
-    const std::chrono::duration<double> elapsed = Clock::now() - start;
-    return minutesAndSeconds(elapsed.count() * (1 - share) / share);
+    return minutesAndSeconds(elapsed() * (1 - share) / share);
+  }
+
+  // "  1.25 million rays/s"
+  std::string rate() const {
+    if (counted.empty()) return {};
+    return fmt::format("  {:.3g} million {}/s",
+                       static_cast<double>(counts) / 1e6 / std::max(elapsed(), 1e-3), counted);
   }
 
   void show() {
     const std::uint64_t now = std::min(done.load(), total);
     const double share = total == 0 ? 1 : static_cast<double>(now) / static_cast<double>(total);
     const std::string text =
-        fmt::format("{:3} %  ETA {}", static_cast<int>(100 * share), remaining(share));
+        fmt::format("{:3} %  ETA {}{}", static_cast<int>(100 * share), remaining(share), rate());
     if (terminal) {
       const auto filled = static_cast<std::size_t>(share * kBarWidth);
       const std::string bar = std::string(filled, '=') + std::string(kBarWidth - filled, ' ');
@@ -69,8 +77,10 @@ struct Progress::State {
   }
 };
 
-Progress::Progress(std::string label, std::uint64_t total) : state_(std::make_unique<State>()) {
+Progress::Progress(std::string label, std::uint64_t total, std::string counted)
+    : state_(std::make_unique<State>()) {
   state_->label = std::move(label);
+  state_->counted = std::move(counted);
   state_->total = total;
   state_->nextShow = state_->start + (state_->terminal ? Clock::duration(kBarDelay)
                                                        : Clock::duration(kLineInterval));
@@ -81,8 +91,9 @@ Progress::~Progress() {
   if (state_->barShown) std::fputs("\r\x1b[K", stderr);
 }
 
-void Progress::advance(std::uint64_t units) {
+void Progress::advance(std::uint64_t units, std::uint64_t counted) {
   state_->done += units;
+  state_->counts += counted;
   if (!visible) return;
   // Whoever finds the lock taken leaves the showing to its holder.
   const std::unique_lock lock(state_->mutex, std::try_to_lock);

@@ -10,13 +10,14 @@ namespace lucerna {
 
 class Progress {
  public:
-  // total: the count of units that make 100 %.
-  Progress(std::string label, std::uint64_t total);
+  // total: the count of units that make 100 %. counted: what else is counted, as "rays"; how many a
+  // second is shown.
+  Progress(std::string label, std::uint64_t total, std::string counted = "");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void advance(std::uint64_t units = 1);  // any thread
+  void advance(std::uint64_t units = 1, std::uint64_t counted = 0);  // any thread
   // True once the user pressed Ctrl-C: stop soon, keep what is done, return ErrorKind::Cancelled.
   static bool cancelled();
   // Installs the SIGINT handler; the second Ctrl-C kills.

@@ -22,6 +22,7 @@ struct Limit {
   int Capabilities::* member;
 };
 constexpr std::array kLimits = {Limit{"maxTextureSide", &Capabilities::maxTextureSide},
+                                Limit{"maxTextureLayers", &Capabilities::maxTextureLayers},
                                 Limit{"maxColorTargets", &Capabilities::maxColorTargets},
                                 Limit{"maxSamples", &Capabilities::maxSamples}};
 
@@ -49,8 +50,8 @@ std::vector<std::size_t> readNames(const JsonValue& json, const char* key,
 }
 
 void readCapabilities(const JsonValue& json, Capabilities& result) {
-  if (!json.object({"name", "features", "renderable", "maxTextureSide", "maxColorTargets",
-                    "maxSamples", "softwareRasterizer"}))
+  if (!json.object({"name", "features", "renderable", "maxTextureSide", "maxTextureLayers",
+                    "maxColorTargets", "maxSamples", "softwareRasterizer"}))
     return;
   json.read("name", result.name);
   for (const std::size_t i : readNames(json, "features", featureNames()))

@@ -24,15 +24,17 @@ struct Capabilities {
   std::set<std::string, std::less<>> features;
   std::set<Format> renderable;  // formats usable as targets
   int maxTextureSide = 16384;
+  int maxTextureLayers = 2048;
   int maxColorTargets = 8;
   int maxSamples = 4;
   bool softwareRasterizer = false;  // llvmpipe, softpipe, SwiftShader: timer queries lie
 
   static Capabilities baseline();  // OpenGL 4.5 as DESIGN section 3 states it
-  // {"name", "features": [...], "renderable": [...], "maxTextureSide", "maxColorTargets",
-  // "maxSamples", "softwareRasterizer"}, or that under "gl", as `lucerna doctor --json` prints it.
-  // features and renderable are required, the others keep their defaults. The error
-  // (ErrorKind::Input) tells every fault; `name` is what it calls the text, usually its path.
+  // {"name", "features": [...], "renderable": [...], "maxTextureSide",
+  // "maxTextureLayers", "maxColorTargets", "maxSamples", "softwareRasterizer"}, or that under "gl",
+  // as `lucerna doctor --json` prints it. features and renderable are required, the others keep
+  // their defaults. The error (ErrorKind::Input) tells every fault; `name` is what it calls the
+  // text, usually its path.
   static Result<Capabilities> fromJson(const std::string& text, const std::string& name);
   std::string toJson() const;
 };

@@ -31,6 +31,7 @@ TEST(Capabilities, BaselineIsOpenGl45) {
 TEST(Capabilities, SurviveJson) {
   Capabilities caps = Capabilities::baseline();
   caps.maxSamples = 2;
+  caps.maxTextureLayers = 3000;
   caps.softwareRasterizer = true;
   const auto back = Capabilities::fromJson(caps.toJson(), "memory");
   ASSERT_TRUE(back) << back.error().message;
@@ -38,6 +39,7 @@ TEST(Capabilities, SurviveJson) {
   EXPECT_EQ(back->features, caps.features);
   EXPECT_EQ(back->renderable, caps.renderable);
   EXPECT_EQ(back->maxSamples, 2);
+  EXPECT_EQ(back->maxTextureLayers, 3000);
   EXPECT_TRUE(back->softwareRasterizer);
 }
 

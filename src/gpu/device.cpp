@@ -74,6 +74,7 @@ Capabilities readCapabilities() {
   for (const FormatInfo& format : allFormats())
     if (format.renderable && isRenderable(format)) result.renderable.insert(format.format);
   result.maxTextureSide = glInteger(GL_MAX_TEXTURE_SIZE);
+  result.maxTextureLayers = glInteger(GL_MAX_ARRAY_TEXTURE_LAYERS);
   result.maxColorTargets = std::min(glInteger(GL_MAX_DRAW_BUFFERS), 8);
   result.maxSamples = std::min(
       {glInteger(GL_MAX_COLOR_TEXTURE_SAMPLES), glInteger(GL_MAX_DEPTH_TEXTURE_SAMPLES), 4});

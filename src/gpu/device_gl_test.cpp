@@ -16,6 +16,7 @@ TEST_F(DeviceGlTest, DescribesItself) {
   for (const std::string& feature : baseline.features)
     EXPECT_TRUE(device().capabilities().features.contains(feature)) << feature;
   EXPECT_GE(device().capabilities().maxTextureSide, 16384);
+  EXPECT_GE(device().capabilities().maxTextureLayers, 2048);
   const bool inForce = device().description().find(kTimersOnCpuClock) != std::string::npos;
   EXPECT_EQ(device().timersUseCpuClock(), inForce);
 }

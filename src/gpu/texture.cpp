@@ -38,6 +38,8 @@ void checkDesc(const TextureDesc& desc, const Capabilities& capabilities,
   const bool cube = desc.kind == TextureKind::Cube || desc.kind == TextureKind::CubeArray;
   CHECK(!cube || (desc.width == desc.height && desc.layers % 6 == 0),
         "cube texture '{}' is {}x{} with {} layers", label, desc.width, desc.height, desc.layers);
+  CHECK(desc.layers <= capabilities.maxTextureLayers, "texture '{}': {} layers; at most {} here",
+        label, desc.layers, capabilities.maxTextureLayers);
   CHECK(desc.layers >= 1 && desc.levels <= fullChain(desc), "texture '{}': {} layers, {} levels",
         label, desc.layers, desc.levels);
   CHECK(desc.kind == TextureKind::Multisample2D

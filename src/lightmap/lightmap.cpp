@@ -30,7 +30,7 @@ Result<Manifest> readManifest(const std::filesystem::path& folder) {
                  "'{}' holds no lightmap: there is no manifest.json; wanted the folder of a "
                  "finished `lucerna bake`",
                  folder.string());
-  LUCERNA_TRY(text, readText(path));
+  LUCERNA_TRY(text, readText(path, kMostManifestBytes));
   return manifestFrom(text, path.string());
 }
 

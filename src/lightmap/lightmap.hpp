@@ -24,6 +24,8 @@ struct Lightmap {
 Result<Lightmap> readLightmap(const std::filesystem::path& folder);
 
 // Its parts, for who needs not all at once; errors as above.
+// A manifest of ten million objects and named lights has about as many bytes.
+inline constexpr std::uint64_t kMostManifestBytes = 1ull << 30;
 Result<Manifest> readManifest(const std::filesystem::path& folder);
 Result<Layout> readLayout(const std::filesystem::path& folder, const Manifest& manifest);
 Result<Image> readMap(const std::filesystem::path& folder, const Manifest& manifest,

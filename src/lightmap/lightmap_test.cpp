@@ -72,6 +72,19 @@ Manifest smallManifest() {
           .gltf = {{"scene.gltf", hashText16(6)}, {"scene.bin", hashText16(7)}}};
 }
 
+TEST(Manifest, OfVeryManyLightsIsRead) {
+  Manifest manifest = smallManifest();
+  const std::string name(600, 'l');  // so that fewer do
+  manifest.lights.resize(110'000, {.name = name, .group = "", .light = 4});
+  const TestFolder folder;
+  const std::string text = toJson(manifest);
+  ASSERT_GT(text.size(), std::size_t{64} << 20);
+  ASSERT_TRUE(writeText(folder / "manifest.json", text));
+  const Result<Manifest> back = readManifest(folder.path());
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(back->lights.size(), manifest.lights.size());
+}
+
 TEST(Manifest, TextAndBack) {
   const Result<Manifest> back = manifestFrom(toJson(smallManifest()), "manifest.json");
   ASSERT_TRUE(back) << back.error().message;

@@ -38,6 +38,12 @@ Status upload(gpu::Device& device, Lightmaps& lightmaps, std::span<const Image> 
                  "the lightmaps have {} texels a side and this driver's textures at most {}; bake "
                  "the scene into smaller maps",
                  side, limit);
+  const auto layers = static_cast<std::size_t>(device.capabilities().maxTextureLayers);
+  if (maps.size() > layers)
+    return error(ErrorKind::NoGl,
+                 "the lightmap has {} maps and this driver's textures at most {} layers; bake the "
+                 "scene into larger maps (--size) or at less density",
+                 maps.size(), layers);
   lightmaps.maps = device.createTexture({.kind = gpu::TextureKind::Array2D,
                                          .format = gpu::Format::Rgb9E5,
                                          .width = side,

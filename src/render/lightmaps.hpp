@@ -27,7 +27,7 @@ struct MapPart {
 };
 
 // maps: F32 RGB irradiance, squares of one size; none makes Lightmaps without any. Errors
-// (ErrorKind::NoGl): the driver's textures are too small for them.
+// (ErrorKind::NoGl): the driver's textures are too small for them, or have too few layers.
 Status upload(gpu::Device& device, Lightmaps& lightmaps, std::span<const Image> maps);
 // Parts of them that have changed; the maps are as many and as large as were uploaded.
 void update(gpu::Device& device, Lightmaps& lightmaps, std::span<const Image> maps,

@@ -11,6 +11,7 @@ import pathlib
 import random
 import re
 import resource
+import shutil
 import signal
 import struct
 import subprocess
@@ -163,7 +164,10 @@ class BakeTest(unittest.TestCase):
 
     def end(self, folder, sign, reached, *flags):
         """Starts a bake, ends it once reached() is true, and gives its exit code."""
-        process = subprocess.Popen([PROGRAM, "bake", SCENE, "-o", folder, *flags], cwd=self.folder,
+        return self.end_run(["bake", SCENE, "-o", folder, *flags], sign, reached)
+
+    def end_run(self, arguments, sign, reached):
+        process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 120
         while process.poll() is None and not reached() and time.monotonic() < deadline:
@@ -187,21 +191,56 @@ class BakeTest(unittest.TestCase):
         """Whether so many maps are written or being written."""
         return lambda: len(list((self.folder / folder).glob("*map*"))) >= count
 
+    def random_moment(self, chance, folder, seconds):
+        """Any time, some way through the light, or while the maps are written."""
+        kind = chance.randrange(3)
+        if kind == 0:
+            end = time.monotonic() + chance.uniform(0, seconds)
+            return lambda: time.monotonic() >= end
+        if kind == 1:
+            return self.logged(folder, chance.randrange(1, 12 << 20))
+        return self.written(folder, chance.randint(1, 7))
+
     def test_what_is_killed_goes_on(self):
-        plain = self.whole("plain", *LONG)
-        seed = random.randrange(1 << 30)
+        seed = int(os.environ.get("LUCERNA_KILL_SEED", random.randrange(1 << 30)))
+        print(f"LUCERNA_KILL_SEED={seed}", end=" ", file=sys.stderr, flush=True)
         chance = random.Random(seed)
-        kills = 0
-        for number in range(5):
+        start = time.monotonic()
+        plain = self.whole("plain", *LONG)
+        seconds = time.monotonic() - start
+        wanted, kills = 20, 0
+        for number in range(wanted):
             folder = f"k{number}"
-            bytes_, files = sorted(chance.sample(range(1, 12 << 20), 2)), chance.randint(1, 7)
-            moments = [self.logged(folder, bytes_[0]), self.logged(folder, bytes_[1]),
-                       self.written(folder, files)]
-            for reached in moments:
+            for _ in range(4):  # some are over before their moment comes
+                reached = self.random_moment(chance, folder, seconds)
                 kills += self.end(folder, signal.SIGKILL, reached, *LONG, "--resume") == -signal.SIGKILL
             self.ok(self.bake(folder, *LONG, "--resume"))
-            self.assertEqual(self.hashes(folder), plain, f"seed {seed}: at {bytes_} bytes, {files} maps")
-        self.assertGreater(kills, 5, f"seed {seed}: most bakes were over before they were killed")
+            self.assertEqual(self.hashes(folder), plain, f"seed {seed}, {folder}")
+            shutil.rmtree(self.folder / folder)
+            if kills >= wanted:
+                return
+        self.fail(f"seed {seed}: {kills} of {wanted} bakes were killed, the others were over before")
+
+    def test_little_work_can_be_lost(self):
+        """Seconds of one thread's work between two records of the log: a kill loses no more of any thread's."""
+        log = self.folder / "g" / "work" / "shard-1-of-1.log"
+        process = subprocess.Popen([PROGRAM, "bake", SCENE, "-o", "g", *LONG, "--threads", "1"], cwd=self.folder,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        ticks = os.sysconf("SC_CLK_TCK")
+        size, last, longest, growths = 0, 0., 0., 0
+        while process.poll() is None:
+            try:
+                fields = pathlib.Path(f"/proc/{process.pid}/stat").read_text().rpartition(")")[2].split()
+                now, worked = log.stat().st_size, (int(fields[11]) + int(fields[12])) / ticks
+            except (FileNotFoundError, IndexError, ProcessLookupError):
+                now = 0
+            if now > size:
+                longest, growths = max(longest, worked - last), growths + 1
+                size, last = now, worked
+            time.sleep(0.005)
+        self.assertEqual(process.returncode, 0)
+        self.assertGreater(growths, 10)
+        self.assertLess(longest, 5)
 
     def test_interrupt_keeps_what_is_done(self):
         plain = self.whole("plain", *LONG)
@@ -211,6 +250,28 @@ class BakeTest(unittest.TestCase):
         document = json.loads(self.ok(self.bake("i", *LONG, "--resume", "--json")).stdout)
         self.assertGreater(document["bake"]["units_before"], 0)
         self.assertEqual(self.hashes("i"), plain)
+
+    def test_interrupt_while_writing_is_heard(self):
+        plain = self.whole("plain", *LONG)
+
+        def check(folder, code):
+            self.assertEqual(code, 130)
+            self.assertFalse((self.folder / folder / "manifest.json").exists())
+            self.assertTrue((self.folder / folder / "work" / "bake.json").exists())
+        check("w", self.end("w", signal.SIGINT, self.written("w", 1), *LONG))
+        # What is lit stays lit.
+        document = json.loads(self.ok(self.bake("w", *LONG, "--resume", "--json")).stdout)
+        self.assertEqual(document["bake"]["units_before"], document["bake"]["units"])
+        self.assertEqual(self.hashes("w"), plain)
+        for shard in (1, 2):
+            self.ok(self.bake("m", *LONG, "--shard", f"{shard}/2"))
+        merge = ["lightmap", "merge", "m"]
+        check("m", self.end_run(merge, signal.SIGINT, self.written("m", 1)))
+        layout = self.folder / "m" / "layout.bin"
+        layout.unlink()
+        check("m", self.end_run(merge, signal.SIGINT, layout.exists))
+        self.ok(self.lucerna(*merge))
+        self.assertEqual(self.hashes("m"), plain)
 
     def test_leftovers_of_a_kill_while_writing_are_cleared(self):
         plain = self.whole("plain", *SMALL)
@@ -224,6 +285,7 @@ class BakeTest(unittest.TestCase):
         self.ok(self.bake("l", *SMALL))
         self.assertEqual(self.hashes("l"), plain)
         os.makedirs(self.folder / "k")
+        (self.folder / "k" / "layout.bin").write_bytes(b"half")
         (self.folder / "k" / "map-000.exr").write_bytes(b"half")
         (self.folder / "k" / "patch-009.bin").write_bytes(b"half")
         self.ok(self.bake("k", *SMALL))
@@ -325,8 +387,46 @@ class BakeTest(unittest.TestCase):
         (self.folder / "other" / "letter.txt").write_text("")
         self.fails(2, self.bake("other", *SMALL), "none of a lightmap")
         self.fails(1, self.bake("/proc/lightmap", *SMALL), "/proc")
-        self.fails(2, self.lucerna("bake", SCENE), "--output")
+        self.fails(2, self.lucerna("bake", SCENE), "-o")
         self.assertEqual(sorted(os.listdir(self.folder)), ["file", "other"])
+
+    def test_a_scene_is_never_replaced(self):
+        self.whole("first", *SMALL)
+        os.makedirs(self.folder / "m")
+        for name in ("scene.gltf", "scene.bin"):
+            (self.folder / "m" / name).write_bytes((self.folder / "first" / name).read_bytes())
+        before = self.hashes("m")
+        self.fails(2, self.bake("m", *SMALL, scene="m/scene.gltf"), "the folder of the scene", "m/bake")
+        (self.folder / "other.json").write_text(json.dumps(
+            {"lucerna": "scene/1", "include": [{"file": "m/scene.gltf"}]}))
+        self.fails(2, self.bake("m", *SMALL, scene="other.json"), "none of a lightmap")
+        self.assertEqual(self.hashes("m"), before)
+        (self.folder / "m" / "work").mkdir()
+        self.fails(2, self.bake("m", *SMALL), "none of a lightmap")
+        before = self.hashes("first")  # a lightmap, but the scene is its copy
+        self.fails(2, self.bake("first", *SMALL, scene="first/scene.gltf"), "the folder of the scene")
+        self.assertEqual(self.hashes("first"), before)
+        self.ok(self.bake("m/bake", *SMALL, scene="m/scene.gltf"))
+
+    def test_folders_of_others_are_left_alone(self):
+        web = self.folder / "web"
+        os.makedirs(web)
+        for name in ("manifest.json", "map-1.png", "map-000.exr", "tex-0.png"):
+            (web / name).write_text('{"name": "A page", "lucerna": "no lightmap/1"}')
+        before = self.hashes("web")
+        self.fails(2, self.bake("web", *SMALL), "none of a lightmap")
+        (web / "manifest.json").unlink()
+        self.fails(2, self.bake("web", *SMALL), "none of a lightmap")
+        del before["manifest.json"]
+        self.assertEqual(self.hashes("web"), before)
+        # What else was put into a lightmap's folder stays.
+        self.ok(self.bake("ours", *SMALL))
+        names = {"map-1.png", "map-1000.txt", "tex-0.png", "notes.txt"}
+        for name in names:
+            (self.folder / "ours" / name).write_text("")
+        (self.folder / "ours" / "map-1000.png").write_text("of an older one")
+        self.ok(self.bake("ours", *SMALL))
+        self.assertEqual({path.name for path in (self.folder / "ours").iterdir()} & (names | {"map-1000.png"}), names)
 
     def limited(self, bytes_):
         return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_, bytes_))}
@@ -390,6 +490,23 @@ class BakeTest(unittest.TestCase):
         for word in ("charts", "texels", "maps", "estimate", "memory"):
             self.assertIn(word, text)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_odd_triangles_are_left_out(self):
+        """No numbers, no area, and far too large: the rest is lit as without them, in shadow too."""
+        plain = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\nv 0 1 0\nv 1 1 0\nv 0 1 -1\nf 5 7 6\nf 5 6 7\n"
+        odd = "v nan 2 0\nv 1e30 2 0\nv -1e30 2 1e30\nv 1 2 0\nf 5 6 8\nf 5 6 9\nf 8 9 10\nf 6 6 7\nf 5 9 10\n"
+        looks = []
+        for name, text in (("plain", plain), ("odd", plain + odd)):
+            (self.folder / f"{name}.obj").write_text(text)
+            (self.folder / f"{name}.json").write_text(json.dumps(
+                {"lucerna": "scene/1", "include": [{"file": f"{name}.obj"}],
+                 "lights": [{"kind": "directional", "intensity": 3, "direction": [0, -1, 0]}]}))
+            run = self.ok(self.bake(name, *SMALL, scene=f"{name}.json"))
+            looks.append(json.loads(self.ok(self.lucerna("lightmap", "inspect", name, "--json")).stdout)["maps"])
+        self.assertIn("too large", run.stderr)
+        self.assertEqual([each["irradiance"] for each in looks[0]], [each["irradiance"] for each in looks[1]])
+        self.assertEqual([each["unsound"] for each in looks[1]], [0] * len(looks[1]))
+        self.assertEqual(looks[1][0]["irradiance"]["min"], 0)
 
     def test_a_light_inside_a_solid_is_found(self):
         corners = [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)]

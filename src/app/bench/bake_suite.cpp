@@ -3,7 +3,6 @@
 #include "app/bench/bake_suite.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <limits>
 #include <numeric>
@@ -13,6 +12,7 @@
 #include "app/bench/suite.hpp"
 #include "bake/bake.hpp"
 #include "bake/bare_rays.hpp"
+#include "bake/seconds.hpp"
 #include "bake/stretch.hpp"
 #include "bake/unit_light.hpp"
 #include "core/random.hpp"
@@ -21,11 +21,7 @@ namespace lucerna::app::bench {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using bake::Clock, bake::secondsSince;
 
 // How much of each load engines share and rates are taken from.
 struct Sampled {

@@ -259,6 +259,16 @@ TEST_F(BakedLight, ShadersOfMaterialsGetItInShade) {
   EXPECT_NE(refused.error().message.find("'lightmaps' is set by Lucerna"), std::string::npos);
 }
 
+TEST_F(BakedLight, MoreMapsThanLayersAreRefused) {
+  testing::SceneRenderer renderer(sheetScene());
+  const int most = testing::device().capabilities().maxTextureLayers;
+  const std::vector<Image> maps(static_cast<std::size_t>(most) + 1, evenMap(1, vec3(1)));
+  const Status refused = render::upload(testing::device(), renderer.lightmaps, maps);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find(fmt::format("at most {} layers", most)),
+            std::string::npos);
+}
+
 TEST_F(BakedLight, PartsOfMapsChange) {
   scene::Scene scene = sheetScene();
   addSheet(scene, 1, {0, 0, -kDistance});
