@@ -70,6 +70,7 @@ class BlockLighter {
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
   void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
                     bool clear);
+  void findBeside(const Samples& samples, const Tile& tile);
   void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
   void shade(const Samples& samples, const LightPoint& point, Tile range);
   void collect(const Samples& samples, const LightPoint& point, Tile range,
@@ -108,6 +109,7 @@ class BlockLighter {
   std::vector<vec3> seen_;    // weights times shares, of the points that are asked
   std::vector<float> asked_;  // their weights
   std::vector<std::uint32_t> unsure_;
+  std::vector<bool> fine_;  // more than rim points were asked
   // Of all lights, one a sample:
   std::vector<vec3> sums_;
 };
