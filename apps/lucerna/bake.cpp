@@ -7,6 +7,7 @@
 
 #include "bake/bake_order.hpp"
 #include "bake/estimate.hpp"
+#include "bake/hints.hpp"
 #include "bake/preflight.hpp"
 #include "bake/seconds.hpp"
 #include "command_line.hpp"
@@ -23,6 +24,7 @@ using bake::Clock, bake::secondsSince;
 struct Options {
   std::string scene, folder, preset = "standard";
   bake::BakeSettings bake;
+  bake::Asked asked;
   bake::Shard shard;
   bool resume = false, dryRun = false;
   int threads = 0;
@@ -226,7 +228,8 @@ Result<int> bakeScene(Options& options, bool json) {
   LUCERNA_TRY(scene, scene::loadScene(options.scene));
   for (const std::string& warning : scene.warnings) log::warning("{}", warning);
   scene::animate(scene, 0.f);
-  LUCERNA_TRY(plan, bake::makePlan(scene, options.bake));
+  LUCERNA_TRY(settings, bake::withHints(options.bake, options.asked, scene));
+  LUCERNA_TRY(plan, bake::makePlan(scene, settings));
   for (const std::string& warning : plan.warnings) log::warning("{}", warning);
   if (options.dryRun) return dryRun(plan, json);
   sayPlan(plan);
@@ -243,10 +246,12 @@ Result<int> bakeScene(Options& options, bool json) {
   return 0;
 }
 
-void addChartFlags(CLI::App& command, bake::BakeSettings& settings) {
+void addChartFlags(CLI::App& command, bake::BakeSettings& settings, bake::Asked& asked) {
   command.add_option("--density", settings.density, "texels a metre (10)")
       ->check(between(1e-3, 1e5, "texels/m"));
-  command.add_option("--size", settings.pack.side, "texels along each side of a map (2048)")
+  command
+      .add_option("--size", asked.side,
+                  "texels along each side of a map (as the scene's bake hints say, or 2048)")
       ->check(wholeNumber(16, 16384));
   command.add_option("--most-maps", settings.pack.mostMaps, "more maps are an error (256)")
       ->check(wholeNumber(1, 4096));
@@ -272,7 +277,7 @@ void addBake(CommandLine& line) {
   command->add_option("-o,--output", options->folder, "folder of the lightmap");
   command->add_option("--preset", options->preset, "preview, standard or final (standard)")
       ->check(oneOf({"preview", "standard", "final"}));
-  addChartFlags(*command, options->bake);
+  addChartFlags(*command, options->bake, options->asked);
   command->add_option("--reach", options->bake.reach, "m that lights reach at most (as they say)")
       ->check(between(0.01, 1e6, "m"));
   command
@@ -284,11 +289,18 @@ void addBake(CommandLine& line) {
       ->add_option_function<std::vector<std::string>>(
           "--lights",
           [options](const std::vector<std::string>& groups) {
-            if (groups != std::vector<std::string>{"all"}) options->bake.groups = groups;
+            options->asked.groups.emplace();
+            if (groups != std::vector<std::string>{"all"}) options->asked.groups = groups;
           },
-          "all, or GROUP,GROUP...; always-on is what has none (all)")
+          "all, or GROUP,GROUP...; always-on is what has none (as the scene's bake hints say, or "
+          "all)")
       ->delimiter(',')
       ->allow_extra_args(false);
+  command
+      ->add_option("--patch-tolerance", options->asked.patchTolerance,
+                   "brightness of a white surface by which a group's patch may be off (as the "
+                   "scene's bake hints say, or 1/1024 of white)")
+      ->check(between(0, 8));
   command
       ->add_option_function<std::string>(
           "--engine",

@@ -37,6 +37,7 @@ Json settingsJson(const BakeSettings& s) {
             {"sky", {number(s.sky.x), number(s.sky.y), number(s.sky.z)}},
             {"skyDirections", s.skyDirections},
             {"engine", s.engine == Engine::Octree ? "octree" : "embree"}};
+  if (s.patchTolerance) json["patchTolerance"] = number(*s.patchTolerance);
   if (std::isfinite(s.reach)) json["reach"] = number(s.reach);
   if (!s.groups.empty()) json["lights"] = s.groups;
   for (const Encoding encoding : s.encodings)
@@ -47,7 +48,7 @@ Json settingsJson(const BakeSettings& s) {
 void readSettings(const JsonValue& from, BakeSettings& s) {
   if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions",
                     "finePositions", "lightSamples", "emitterSize", "faintest", "sky",
-                    "skyDirections", "engine", "reach", "lights", "encode"}))
+                    "skyDirections", "engine", "patchTolerance", "reach", "lights", "encode"}))
     return;
   from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "finePositions",
                 "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "engine"});
@@ -65,6 +66,8 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
   from.read("faintest", s.faintest, kUnitRange);
   if (from.readChoice("engine", {"embree", "octree"}, choice))
     s.engine = choice == 0 ? Engine::Embree : Engine::Octree;
+  if (float tolerance = 0.f; from.read("patchTolerance", tolerance, {0.f, 8.f}))
+    s.patchTolerance = tolerance;
   from.read("reach", s.reach, {0.01f, 1e6f, "m"});
   from.read("sky", s.sky, {0.f, 1e6f, ""});
   from.readInteger("skyDirections", s.skyDirections, 1, 1 << 20);

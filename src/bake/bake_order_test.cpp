@@ -27,6 +27,7 @@ BakeOrder someOrder() {
   order.settings.pack = {.side = 512, .gap = 3, .mostMaps = 7};
   order.settings.sampling = {
       .positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f};
+  order.settings.patchTolerance = 0.3f;
   order.settings.sky = vec3(0.1f, 0.2f, 0.7f);
   order.settings.skyDirections = 64;
   order.settings.encodings = {Encoding::Png, Encoding::Rgb9e5};
@@ -45,6 +46,7 @@ TEST(BakeOrder, ComesBackToTheBit) {
   EXPECT_EQ(back->settings.faintest, order.settings.faintest);
   EXPECT_EQ(back->settings.reach, order.settings.reach);
   EXPECT_EQ(back->settings.sampling.emitterSize, order.settings.sampling.emitterSize);
+  EXPECT_EQ(back->settings.patchTolerance, order.settings.patchTolerance);
   EXPECT_EQ(back->settings.sky, order.settings.sky);
   EXPECT_EQ(back->settings.encodings, order.settings.encodings);
   EXPECT_EQ(back->settings.groups, order.settings.groups);
@@ -52,6 +54,7 @@ TEST(BakeOrder, ComesBackToTheBit) {
       toJson({.scene = "a.obj", .plan = 0, .processor = "avx2", .settings = {}}), "bake.json");
   ASSERT_TRUE(plain) << plain.error().message;
   EXPECT_EQ(plain->settings.reach, BakeSettings().reach);
+  EXPECT_FALSE(plain->settings.patchTolerance);
 }
 
 TEST(BakeOrder, NoTornOneIsTaken) {

@@ -14,7 +14,8 @@ using scene::LightKind;
 using scene::PlacedLight;
 
 // On the rim of a light with a size: if they agree, they stand for all. Of a disc beyond a straight
-// edge that all of them miss there is 1 %.
+// edge that all of them miss there is 1 %; of what shows through a gap it may be all, so whoever
+// has a neighbour that does not agree is asked, too.
 constexpr int kRimPoints = 8;
 
 float distanceTo(const Aabb& box, vec3 p) {
@@ -158,6 +159,25 @@ bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) con
   return !occluders_.anyIn(shaftFrom(light.positionW, ballOf(light), samples));
 }
 
+// unsure_: of the tile's samples those that rim points alone were asked for, beside one that sees
+// another part of the light. One sample a texel.
+void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
+  const float near = 1.6f * s.texelSize;  // m, also over a corner
+  const auto differs = [&](std::uint32_t i, std::uint32_t k) {
+    const bool same = asked_[k] <= 0.f || (seen_[i] == vec3(0.f) && seen_[k] == vec3(0.f)) ||
+                      (seen_[i] == vec3(asked_[i]) && seen_[k] == vec3(asked_[k]));
+    const vec3 to(s.x[k] - s.x[i], s.y[k] - s.y[i], s.z[k] - s.z[i]);
+    return !same && glm::dot(to, to) < near * near;
+  };
+  unsure_.clear();
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+    if (full_[i] <= 0.f || fine_[i]) continue;
+    std::uint32_t k = tile.first;
+    while (k < tile.first + tile.count && (full_[k] <= 0.f || !differs(i, k))) ++k;
+    if (k < tile.first + tile.count) unsure_.push_back(i);
+  }
+}
+
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
@@ -182,9 +202,17 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
   std::erase_if(unsure_, [&](std::uint32_t i) {
     return asked_[i] > 0.f && (seen_[i] == vec3(0.f) || seen_[i] == vec3(asked_[i]));
   });
-  restart();
-  if (unsure_.empty()) return;
-  for (int i = 0; i < settings_.lightSamples; ++i) ask(spiralPoint(i, settings_.lightSamples));
+  constexpr std::uint32_t kTexels = 64;  // of a tile
+  fine_.assign(samples.size(), false);
+  while (true) {
+    restart();
+    for (const std::uint32_t i : unsure_) fine_[i] = true;
+    if (!unsure_.empty())
+      for (int i = 0; i < settings_.lightSamples; ++i) ask(spiralPoint(i, settings_.lightSamples));
+    if (tile.count > kTexels) return;
+    findBeside(samples, tile);
+    if (unsure_.empty()) return;
+  }
 }
 
 void BlockLighter::lightBySized(const Samples& samples, const Tile& tile, const PlacedLight& light,

@@ -32,6 +32,7 @@ class BlockLighter final : public Lighter {
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
   void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
                     bool clear);
+  void findBeside(const Samples& samples, const Tile& tile);
   void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
   void shade(const Samples& samples, const LightPoint& point, Tile range);
   void collect(const Samples& samples, const LightPoint& point, Tile range,
@@ -70,6 +71,7 @@ class BlockLighter final : public Lighter {
   std::vector<vec3> seen_;    // weights times shares, of the points that are asked
   std::vector<float> asked_;  // their weights
   std::vector<std::uint32_t> unsure_;
+  std::vector<bool> fine_;  // more than rim points were asked
 };
 
 }  // namespace lucerna::bake

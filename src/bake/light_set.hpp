@@ -8,6 +8,9 @@
 
 namespace lucerna::bake {
 
+// What `--lights` calls the lights without a group.
+inline constexpr const char* kAlwaysOn = "always-on";
+
 struct LightGroup {
   std::string name;  // "": always on
   std::vector<scene::PlacedLight> lights;

@@ -149,6 +149,34 @@ TEST(LightTruth, ThePenumbraOfAHalfPlane) {
     }
 }
 
+// Two half-planes with a gap that shows a strip of the lamp, for most places one without any of the
+// rim's points.
+TEST(LightTruth, ALampThroughAGap) {
+  constexpr float kHeight = 4.f, kEdge = 1.f, kRadius = 0.2f, kGap = 0.01f, kIntensity = 10.f;
+  scene::Scene scene;
+  addSurface(scene);
+  const auto floor = addRectangle(scene, {0, 0, 0}, {0.25f, 0, 0}, {0, 0, -0.25f});
+  addRectangle(scene, {-2 - 0.5f * kGap, kEdge, 0}, {2, 0, 0}, {0, 0, 2});
+  addRectangle(scene, {2 + 0.5f * kGap, kEdge, 0}, {2, 0, 0}, {0, 0, 2});
+  scene::Light& light = addLight(scene, LightKind::Spot, {0, kHeight, 0}, {0, -1, 0});
+  light.intensity = kIntensity;
+  light.radius = kRadius;
+  const auto truth = [&](dvec3 p, dvec3) {
+    const dvec3 to = dvec3(0, kHeight, 0) - p;
+    const double d = glm::length(to);
+    const auto chord = [&](double edge) {
+      return (p.x + (edge - p.x) * kHeight / kEdge) / kRadius;
+    };
+    const double share = shareBeyond(chord(-0.5 * kGap)) - shareBeyond(chord(0.5 * kGap));
+    return kIntensity * to.y / (d * d * d) * share;
+  };
+  const double full = kIntensity / (kHeight * kHeight);
+  const Errors e = errorsOf(texelsOf(lit(scene, 100.f, kStandard), floor), truth, full);
+  EXPECT_LT(e.worst, 0.1);  // the strip is up to an eighth of the light: two of the points
+  EXPECT_LT(e.rms, 0.03);
+  EXPECT_LT(std::abs(e.mean), 0.006);
+}
+
 // Lights without a size over a floor of 8 m.
 struct Floor {
   scene::Scene scene;

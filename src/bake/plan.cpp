@@ -64,7 +64,7 @@ Status choose(Plan& plan) {
   if (wanted.empty()) return {};
   std::vector<std::string> names;
   for (const LightGroup& group : groups)
-    names.push_back(group.name.empty() ? "always-on" : group.name);
+    names.push_back(group.name.empty() ? kAlwaysOn : group.name);
   for (const std::string& name : wanted)
     if (std::ranges::find(names, name) == names.end())
       return error(ErrorKind::Usage,

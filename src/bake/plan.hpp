@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,9 @@ struct BakeSettings {
   vec3 sky{0.f};  // radiance of all directions that meet nothing
   int skyDirections = 256;
   std::vector<std::string> groups;  // of lights that are baked; empty: all
+  // By how much a patch may differ from its light: brightness of a white surface; absent: 1/1024 of
+  // what shows as white at the scene's exposure.
+  std::optional<float> patchTolerance;
   Engine engine = Engine::Embree;
   std::vector<Encoding> encodings;
 };

@@ -119,7 +119,7 @@ std::vector<std::vector<bool>> usedTexels(const MapTexels& texels) {
 }
 
 MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<const LitTexel> lit,
-                    float white) {
+                    const PatchTolerance& tolerance) {
   std::vector<PatchTexel> texels;
   texels.reserve(lit.size());
   for (const LitTexel& t : lit)
@@ -128,9 +128,14 @@ MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<
          .x = t.x,
          .y = t.y,
          .value = {floatFromHalf(t.rgb[0]), floatFromHalf(t.rgb[1]), floatFromHalf(t.rgb[2])}});
-  // A quarter of what can be seen at once, as several groups may add up.
-  return maker.make({.group = group.name, .color = colorOf(group), .texels = texels},
-                    {.light = white / 1024.f, .black = white / 16384.f});
+  return maker.make({.group = group.name, .color = colorOf(group), .texels = texels}, tolerance);
+}
+
+// As asked for; else a quarter of what can be seen at once, as several groups may add up.
+PatchTolerance toleranceOf(const Plan& plan) {
+  const float light = plan.settings.patchTolerance ? kPi * *plan.settings.patchTolerance
+                                                   : irradianceOfWhite(*plan.world.scene) / 1024.f;
+  return {.light = light, .black = light / 16.f};
 }
 
 Status writePatches(const Plan& plan, const BakedLight& baked, const lightmap::Layout& layout,
@@ -138,12 +143,12 @@ Status writePatches(const Plan& plan, const BakedLight& baked, const lightmap::L
   if (plan.groups.size() < 2) return {};
   const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
   const PatchMaker maker(layout, used);
-  const float white = irradianceOfWhite(*plan.world.scene);
+  const PatchTolerance tolerance = toleranceOf(plan);
   std::vector<MadePatch> made(plan.groups.size());
   Progress progress("making patches", made.size() - 1);
   parallelFor(made.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin + 1; i < end + 1 && !Progress::cancelled(); ++i) {
-      made[i] = makePatch(maker, plan.groups[i], baked.groups[i], white);
+      made[i] = makePatch(maker, plan.groups[i], baked.groups[i], tolerance);
       progress.advance();
     }
   });

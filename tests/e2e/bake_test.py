@@ -462,6 +462,38 @@ class BakeTest(unittest.TestCase):
         table = json.loads(self.ok(self.lucerna("lightmap", "inspect", "dark", "--json")).stdout)
         self.assertEqual([each["irradiance"]["max"] for each in table["maps"]], [0] * len(table["maps"]))
 
+    def test_what_the_scene_says_of_baking_counts_unless_flags_say_otherwise(self):
+        (self.folder / "floor.obj").write_text("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+
+        def scene(name, **bake):
+            (self.folder / name).write_text(json.dumps(
+                {"lucerna": "scene/1", "include": [{"file": "floor.obj"}], "bake": bake, "lights": [
+                    {"name": "a", "kind": "point", "intensity": 3, "position": [0, 1, 0]},
+                    {"name": "b", "kind": "point", "intensity": 3, "position": [0.5, 1, 0], "group": "desk"}]}))
+            return name
+        flags = ["--density", "40", "--preset", "preview"]
+        hinted = scene("hinted.json", mapSize=256, patchTolerance=0.25)
+        self.ok(self.bake("a", *flags, scene=hinted))
+        coarse = self.manifest("a")
+        self.assertEqual(coarse["side"], 256)
+        self.assertEqual(faults(coarse, schema()), [])
+        self.ok(self.bake("b", *flags, "--size", "128", "--patch-tolerance", "0.0001", scene=hinted))
+        fine = self.manifest("b")
+        self.assertEqual(fine["side"], 128)
+        self.assertLess(coarse["patches"][0]["bytes"], fine["patches"][0]["bytes"])
+        self.ok(self.bake("c", *flags, "--shard", "1/2", scene=hinted))
+        self.fails(2, self.bake("c", *flags, "--shard", "2/2", "--patch-tolerance", "0.1", scene=hinted),
+                   "patchTolerance is 0.25 there, 0.1 here")
+        self.ok(self.bake("c", *flags, "--shard", "2/2", scene=hinted))
+        self.ok(self.lucerna("lightmap", "merge", "c"))
+        self.assertEqual(self.hashes("c"), self.hashes("a"))
+        lit = scene("lit.json", patches=False)
+        self.ok(self.bake("d", *flags, scene=lit))
+        self.assertEqual(self.manifest("d")["patches"], [])
+        self.ok(self.bake("e", *flags, "--lights", "all", scene=lit))
+        self.assertEqual(len(self.manifest("e")["patches"]), 1)
+        self.fails(2, self.bake("f", *flags, scene=scene("dark.json", maps=False, patches=False)), "nothing to bake")
+
     def test_too_many_maps_say_what_fits(self):
         flags = ["--size", "64", "--most-maps", "2", "--preset", "preview"]
         run = self.bake("many", "--density", "200", *flags)

@@ -184,7 +184,57 @@ TEST_F(BakedLight, TheBackOfASurfaceHasNone) {
   EXPECT_GT(middleOf(picture(scene, maps, bakedRows(), "TiledLighting.color")).x, 0.3f);
 }
 
-TEST_F(BakedLight, MetalsAndUnlitSurfacesReflectNoneAndOcclusionDarkensNone) {
+// What a highlight of reflectance 1 gives back of light from all around, the mean of all directions
+// v to the eye, by the midpoints of a grid of v and of halfway vectors h as D spreads them:
+// the mean of 2 (n.v) V 4 (v.h) (n.l) / (n.h).
+float highlightShare(double roughness) {
+  constexpr int kSteps = 64;
+  const double a2 = std::pow(roughness, 4.), pi = static_cast<double>(kPi);
+  const auto lambda = [&](double c) { return std::sqrt(c * c * (1 - a2) + a2); };
+  double sum = 0;
+  for (int i = 0; i < kSteps; ++i)
+    for (int j = 0; j < kSteps; ++j)
+      for (int k = 0; k < kSteps; ++k) {
+        const double nv = (i + 0.5) / kSteps, u = (j + 0.5) / kSteps;
+        const double nh = std::sqrt((1 - u) / (1 + (a2 - 1) * u));
+        const double side = std::sqrt((1 - nv * nv) * (1 - nh * nh));
+        const double vh = nv * nh + side * std::cos(2 * pi * (k + 0.5) / kSteps);
+        const double nl = 2 * vh * nh - nv;
+        if (vh <= 0 || nl <= 0) continue;
+        const double visibility = 0.5 / (nl * lambda(nv) + nv * lambda(nl));
+        sum += 2 * nv * visibility * 4 * vh * nl / nh;
+      }
+  return static_cast<float>(sum / std::pow(kSteps, 3.));
+}
+
+TEST_F(BakedLight, OfMetalsIsTheMeanOfTheirHighlights) {
+  scene::Scene scene = sheetScene();
+  addSheet(scene, 0, {0, 0, -kDistance});
+  const std::array maps = {evenMap(4, vec3(2))};
+  const vec3 all = kAlbedo * 2.f / kPi;
+  scene.materials[0].model = scene::MaterialModel::MetallicRoughness;
+  const auto expectShares = [&](vec3 diffuse, vec3 highlight) {
+    for (const float roughness : {0.1f, 0.4f, 0.5f, 0.7f, 0.9f, 1.f}) {
+      scene.materials[0].roughness = roughness;
+      const vec3 expected = diffuse + highlight * highlightShare(roughness);
+      const vec3 deferred = middleOf(picture(scene, maps, bakedRows(), "TiledLighting.color"));
+      EXPECT_LT(glm::distance(deferred, expected), 0.015f) << roughness;
+      const vec3 forward =
+          middleOf(picture(scene, maps, testing::rows(testing::kForwardRows), "Forward.color"));
+      EXPECT_LT(glm::distance(deferred, forward), 0.01f) << roughness;
+    }
+  };
+  for (const float metallic : {0.f, 0.4f, 1.f}) {
+    scene.materials[0].metallic = metallic;
+    expectShares(all * (1.f - metallic), all * metallic);
+  }
+  // Their specular reflectance is beside the diffuse one, which its largest channel dims.
+  scene.materials[0].model = scene::MaterialModel::SpecularGlossiness;
+  scene.materials[0].specular = vec3(0.5f, 0.25f, 0.f);
+  expectShares(0.5f * all, scene.materials[0].specular * 2.f / kPi);
+}
+
+TEST_F(BakedLight, UnlitSurfacesReflectNoneAndOcclusionDarkensNone) {
   scene::Scene scene = sheetScene();
   addSheet(scene, 0, {0, 0, -kDistance});
   const std::array maps = {evenMap(4, vec3(2))};
@@ -200,11 +250,6 @@ TEST_F(BakedLight, MetalsAndUnlitSurfacesReflectNoneAndOcclusionDarkensNone) {
   scene.materials[0].occlusionTexture.texture = 0;
   const vec3 all = kAlbedo * 2.f / kPi;
   EXPECT_LT(glm::distance(middle(), all), 0.01f);
-  scene.materials[0].model = scene::MaterialModel::MetallicRoughness;
-  for (const float metallic : {0.f, 0.4f, 1.f}) {
-    scene.materials[0].metallic = metallic;
-    EXPECT_LT(glm::distance(middle(), all * (1.f - metallic)), 0.01f) << metallic;
-  }
   scene.materials[0].model = scene::MaterialModel::Unlit;
   EXPECT_LT(glm::distance(middle(), kAlbedo), 0.01f);
 }

@@ -51,7 +51,6 @@ constexpr Key kLightKeys[] = {
 // The thesis stores an eighth of the light in maps of 8 bits (5.1.3): one step there, as brightness
 // of a white surface.
 constexpr float kMapStep = 8.f / 255.f;
-constexpr float kThesisTolerance = 32.f;
 constexpr int kThesisMapSize = 2048;
 
 using Values = std::map<std::string, float, std::less<>>;
@@ -199,7 +198,8 @@ class Parser {
     area.cut = glm::radians(valueOr(values_, "area_light_cutoff", glm::degrees(area.cut)));
     area.attenuation = valueOr(values_, "area_light_att", area.attenuation);
     area.intensity = valueOr(values_, "area_light_intensity", area.intensity);
-    bake.patchTolerance = kMapStep * valueOr(values_, "interpolation_tolerance", kThesisTolerance);
+    if (values_.contains("interpolation_tolerance"))
+      bake.patchTolerance = kMapStep * values_["interpolation_tolerance"];
     bake.mapSize = static_cast<int>(valueOr(values_, "lightmap_size", kThesisMapSize));
     bake.areaLights = valueOr(values_, "render_area_lights", 1.f) > 0.f;
     bake.patches = valueOr(values_, "render_dynamic_lights", 1.f) > 0.f;
@@ -238,7 +238,6 @@ LightsIni parseLightsIni(std::string_view text, const std::string& name) {
   LightsIni ini;
   ini.file = name;
   ini.bake.area.emplace();
-  ini.bake.patchTolerance = kMapStep * kThesisTolerance;
   ini.bake.mapSize = kThesisMapSize;
   Parser(ini).run(text);
   return ini;
