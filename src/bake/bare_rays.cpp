@@ -84,7 +84,7 @@ RTCScene sceneOf(RTCDevice device, const World& world, bool robust) {
 }  // namespace
 
 BareSettings likeTracer() {
-  return {.robust = true, .coherent = false, .instructionSet = rayInstructionSet()};
+  return {.robust = false, .coherent = true, .instructionSet = rayInstructionSet()};
 }
 
 struct BareRays::State {
