@@ -33,7 +33,7 @@ Packet packetOf(const ShadowRays& rays, std::size_t first) {
     packet.rays.dir_y[i] = rays.toY[at] - rays.fromY[at];
     packet.rays.dir_z[i] = rays.toZ[at] - rays.fromZ[at];
     packet.rays.tnear[i] = kClearOfLight;
-    packet.rays.tfar[i] = 1.f;
+    packet.rays.tfar[i] = 1.f - kClearOfSample;
     packet.rays.mask[i] = ~0u;
   }
   return packet;
@@ -48,9 +48,18 @@ RTCRay rayOf(const Packet& packet, std::size_t i) {
   ray.dir_y = packet.rays.dir_y[i];
   ray.dir_z = packet.rays.dir_z[i];
   ray.tnear = packet.rays.tnear[i];
-  ray.tfar = 1.f;
+  ray.tfar = packet.rays.tfar[i];
   ray.mask = ~0u;
   return ray;
+}
+
+std::vector<RTCRay> raysOf(const std::vector<Packet>& packets) {
+  std::vector<RTCRay> rays;
+  rays.reserve(kPacket * packets.size());
+  for (const Packet& packet : packets)
+    for (std::size_t i = 0; i < kPacket && packet.valid[i] == -1; ++i)
+      rays.push_back(rayOf(packet, i));
+  return rays;
 }
 
 RTCScene sceneOf(RTCDevice device, const World& world, bool robust) {
@@ -75,7 +84,7 @@ RTCScene sceneOf(RTCDevice device, const World& world, bool robust) {
 }  // namespace
 
 BareSettings likeTracer() {
-  return {.robust = true, .coherent = false, .instructionSet = rayInstructionSet()};
+  return {.robust = false, .coherent = true, .instructionSet = rayInstructionSet()};
 }
 
 struct BareRays::State {
@@ -131,12 +140,20 @@ double BareRays::packetSeconds() {
   return seconds;
 }
 
+std::vector<bool> BareRays::blockedOneByOne() const {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  std::vector<bool> blocked;
+  std::vector<RTCRay> rays = raysOf(state_->ready);
+  for (RTCRay& ray : rays) {
+    rtcOccluded1(state_->scene, &context, &ray);
+    blocked.push_back(ray.tfar < 0.f);
+  }
+  return blocked;
+}
+
 double BareRays::singleSeconds() {
-  std::vector<RTCRay> rays;
-  rays.reserve(state_->count);
-  for (const Packet& packet : state_->ready)
-    for (std::size_t i = 0; i < kPacket && packet.valid[i] == -1; ++i)
-      rays.push_back(rayOf(packet, i));
+  std::vector<RTCRay> rays = raysOf(state_->ready);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   const auto start = Clock::now();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "bake/shadow_tracer.hpp"
 
@@ -34,7 +35,9 @@ class BareRays {
   // Seconds that Embree takes for all rays once: in packets, and one by one in the same order.
   double packetSeconds();
   double singleSeconds();
-  // Of the last of these calls: rays with something in the way.
+  // Whether something is in the way of each, asked one by one.
+  std::vector<bool> blockedOneByOne() const;
+  // Of the last call that takes time: rays with something in the way.
   std::size_t blocked() const;
 
  private:

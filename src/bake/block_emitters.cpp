@@ -88,21 +88,14 @@ void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const E
   values_.resize(lit_.size());
   for (std::size_t i = first; i < lit_.size(); ++i)
     values_[i] = point.light.intensity * weights_[lit_[i]];
-  constexpr std::size_t kMostRays = 4096;
   if (lit_.size() >= kMostRays) flush();
 }
 
 void BlockLighter::flush() {
-  const auto start = Clock::now();
-  counters.pairs += lit_.size();
-  counters.rays += lit_.size();
-  shares_.resize(lit_.size());
-  tracer_.trace(rays_, shares_);
+  trace();
   for (std::size_t i = 0; i < lit_.size(); ++i) sums_[lit_[i]] += values_[i] * shares_[i];
-  lit_.clear();
   values_.clear();
-  rays_.resize(0);
-  counters.tracingSeconds += secondsSince(start);
+  forgetRays();
 }
 
 // A cell by a grid of points: they tell what share of it is seen. What all of it gives where

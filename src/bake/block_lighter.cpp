@@ -137,17 +137,19 @@ void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
   }
 }
 
-// Leaves lit_ and what each of them sees in shares_.
-void BlockLighter::tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
-                              std::span<const std::uint32_t> among) {
-  lit_.clear();
-  collect(samples, point, range, among);
-  shares_.assign(lit_.size(), vec3(1.f));
+// Leaves in shares_ what each of lit_ sees.
+void BlockLighter::trace() {
+  shares_.resize(lit_.size());
   counters.pairs += lit_.size();
   counters.rays += lit_.size();
   const auto start = Clock::now();
   tracer_.trace(rays_, shares_);
   counters.tracingSeconds += secondsSince(start);
+}
+
+void BlockLighter::forgetRays() {
+  lit_.clear();
+  rays_.resize(0);
 }
 
 bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) const {
@@ -181,14 +183,23 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
+  // All points in few lists: packets are full.
+  const auto finish = [&] {
+    trace();
+    for (std::size_t i = 0; i < lit_.size(); ++i) {
+      seen_[lit_[i]] += given_[i] * shares_[i];
+      asked_[lit_[i]] += given_[i];
+    }
+    given_.clear();
+    forgetRays();
+  };
   const auto ask = [&](vec2 p) {
     const LightPoint point = disc.at(p);
     shade(samples, point, tile);
-    tracePoint(samples, point, tile, unsure_);
-    for (std::size_t i = 0; i < lit_.size(); ++i) {
-      seen_[lit_[i]] += weights_[lit_[i]] * shares_[i];
-      asked_[lit_[i]] += weights_[lit_[i]];
-    }
+    const std::size_t first = lit_.size();
+    collect(samples, point, tile, unsure_);
+    for (std::size_t i = first; i < lit_.size(); ++i) given_.push_back(weights_[lit_[i]]);
+    if (lit_.size() >= kMostRays) finish();
   };
   const auto restart = [&] {
     for (const std::uint32_t i : unsure_) {
@@ -196,9 +207,12 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
       asked_[i] = 0.f;
     }
   };
+  given_.clear();
+  forgetRays();
   restart();
   for (int i = 0; i < kRimPoints; ++i)
     ask(onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints)));
+  finish();
   std::erase_if(unsure_, [&](std::uint32_t i) {
     return asked_[i] > 0.f && (seen_[i] == vec3(0.f) || seen_[i] == vec3(asked_[i]));
   });
@@ -207,8 +221,9 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
   while (true) {
     restart();
     for (const std::uint32_t i : unsure_) fine_[i] = true;
-    if (!unsure_.empty())
-      for (int i = 0; i < settings_.lightSamples; ++i) ask(spiralPoint(i, settings_.lightSamples));
+    for (int i = 0; !unsure_.empty() && i < settings_.lightSamples; ++i)
+      ask(spiralPoint(i, settings_.lightSamples));
+    finish();
     if (tile.count > kTexels) return;
     findBeside(samples, tile);
     if (unsure_.empty()) return;
@@ -264,7 +279,9 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
         counters.pairs += weights_[i] > 0.f;
       }
     } else {
-      tracePoint(samples, point, all, {});
+      forgetRays();
+      collect(samples, point, all, {});
+      trace();
       for (std::size_t i = 0; i < lit_.size(); ++i)
         sums_[lit_[i]] += light.intensity * weights_[lit_[i]] * shares_[i];
     }
@@ -282,8 +299,7 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
   sums_.assign(samples.size(), vec3(0.f));
   for (const PlacedLight& light : lights.subspan(static_cast<std::size_t>(first - lights.begin())))
     if (mayLight(samples, light)) lightBy(samples, light);
-  lit_.clear();
-  rays_.resize(0);
+  forgetRays();
   if (!found_.empty())
     for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
   meansOf(samples, texels);

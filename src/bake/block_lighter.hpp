@@ -25,7 +25,8 @@ class BlockLighter final : public Lighter {
              std::vector<vec3>& texels) override;
 
  private:
-  using Tile = Samples::Tile;  // a range of samples
+  using Tile = Samples::Tile;                     // a range of samples
+  static constexpr std::size_t kMostRays = 4096;  // that gather before they are traced
 
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
@@ -37,8 +38,8 @@ class BlockLighter final : public Lighter {
   void shade(const Samples& samples, const LightPoint& point, Tile range);
   void collect(const Samples& samples, const LightPoint& point, Tile range,
                std::span<const std::uint32_t> among);
-  void tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
-                  std::span<const std::uint32_t> among);
+  void trace();
+  void forgetRays();
 
   // Emitting surfaces, tile by tile.
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
@@ -63,6 +64,7 @@ class BlockLighter final : public Lighter {
   // Of the rays that are to be traced together:
   std::vector<std::uint32_t> lit_;  // samples that they lead to
   std::vector<vec3> values_;        // what these get if nothing is in the way; of emitters
+  std::vector<float> given_;        // the same as weights; of a light with a size
   ShadowRays rays_;
   std::vector<vec3> shares_;                  // of the light that they let through
   std::vector<std::uint32_t> stack_, found_;  // nodes of emitters

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
 
+#include "bake/holes.hpp"
+#include "bake/overlap.hpp"
 #include "bake/shadow_tracer.hpp"
 #include "core/check.hpp"
 #include "trace/material_lookup.hpp"
@@ -13,60 +16,138 @@ namespace {
 
 constexpr std::size_t kPacket = 16;
 
-// What the filter finds behind Embree's context. Each triangle must reach the filter once: packets
-// that are marked coherent show it some twice (Embree 3.13.5), and so may scenes of high build
-// quality, which split triangles. Neither is faster here.
+// What filters find behind Embree's context.
 struct Context {
+  explicit Context(const trace::MaterialLookup& asked) : lookup(asked) {
+    rtcInitIntersectContext(&embree);
+  }
   RTCIntersectContext embree;  // first: Embree hands out its address
-  const World* world = nullptr;
-  const trace::MaterialLookup* lookup = nullptr;
-  std::span<const std::uint32_t> triangles;  // of the world, by primitive
-  vec3* shares = nullptr;                    // of the packet under way, one a lane
+  const trace::MaterialLookup& lookup;
+  // Of the packet under way, one a lane. For lanes without a ray as well: Embree 3.13.5 asks about
+  // some of them.
+  std::array<vec3, kPacket> through;
 };
 
-// Of the geometry that lets some light through.
-void filter(const RTCFilterFunctionNArguments* args) {
-  const Context& context = *reinterpret_cast<const Context*>(args->context);
+// What a ray meets of a geometry whose user data are its triangles.
+trace::Spot spotOf(const RTCFilterFunctionNArguments& args, unsigned lane) {
+  trace::Spot spot =
+      static_cast<const trace::Spot*>(args.geometryUserPtr)[RTCHitN_primID(args.hit, args.N, lane)];
+  spot.barycentric = {RTCHitN_u(args.hit, args.N, lane), RTCHitN_v(args.hit, args.N, lane)};
+  return spot;
+}
+
+// Of alpha-tested triangles, whose user data are their holes: lets rays through those, however
+// often it is asked.
+void passHoles(const RTCFilterFunctionNArguments* args) {
+  const Holes& holes = *static_cast<const Holes*>(args->geometryUserPtr);
+  for (unsigned lane = 0; lane < args->N; ++lane)
+    if (args->valid[lane] == -1 &&
+        holes.at(RTCHitN_primID(args->hit, args->N, lane),
+                 {RTCHitN_u(args->hit, args->N, lane), RTCHitN_v(args->hit, args->N, lane)}))
+      args->valid[lane] = 0;
+}
+
+// Of translucent ones, each of which must be shown once to a ray. Packets that are marked as
+// coherent show some twice (Embree 3.13.5), and so may scenes of high build quality, which split
+// triangles.
+void takeLight(const RTCFilterFunctionNArguments* args) {
+  Context& context = *reinterpret_cast<Context*>(args->context);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] != -1) continue;
-    const std::uint32_t triangle = context.triangles[RTCHitN_primID(args->hit, args->N, lane)];
-    const WorldObject& object = context.world->objects[context.world->owners[triangle]];
-    const trace::Spot spot{
-        .object = object.object,
-        .triangle = triangle - object.firstTriangle,
-        .barycentric = {RTCHitN_u(args->hit, args->N, lane), RTCHitN_v(args->hit, args->N, lane)}};
-    const vec3 toLightW(-RTCRayN_dir_x(args->ray, args->N, lane),
-                        -RTCRayN_dir_y(args->ray, args->N, lane),
-                        -RTCRayN_dir_z(args->ray, args->N, lane));
-    vec3& share = context.shares[RTCRayN_id(args->ray, args->N, lane)];
-    share *= trace::shareThrough(*context.lookup, spot, toLightW);
+    const vec3 toLightW(RTCRayN_dir_x(args->ray, args->N, lane),
+                        RTCRayN_dir_y(args->ray, args->N, lane),
+                        RTCRayN_dir_z(args->ray, args->N, lane));
+    vec3& share = context.through[RTCRayN_id(args->ray, args->N, lane)];
+    share *= trace::shareThrough(context.lookup, spotOf(*args, lane), toLightW);
     if (share != vec3(0.f)) args->valid[lane] = 0;
   }
 }
 
+// Sixteen rays as Embree reads them, from samples to lights: what is near a ray's start is met
+// where it is, and most of what decides is near samples. From lights, and without robust mode, one
+// in a thousand rays of the night city slips through somewhere.
+struct Packet {
+  Packet() {
+    for (unsigned i = 0; i < kPacket; ++i) {
+      rays.tnear[i] = kClearOfSample;
+      rays.time[i] = 0.f;
+      rays.mask[i] = ~0u;
+      rays.id[i] = i;
+      rays.flags[i] = 0;
+    }
+  }
+
+  // Rays of the list from `first` on, into all lanes: there are as many.
+  void setAll(const ShadowRays& list, std::size_t first) {
+    const auto set = [first](const auto& light, const auto& sample, float* origin, float* way) {
+      const float *start = &sample[first], *end = &light[first];
+      for (std::size_t i = 0; i < kPacket; ++i) origin[i] = start[i];
+      for (std::size_t i = 0; i < kPacket; ++i) way[i] = end[i] - start[i];
+    };
+    set(list.fromX, list.toX, rays.org_x, rays.dir_x);
+    set(list.fromY, list.toY, rays.org_y, rays.dir_y);
+    set(list.fromZ, list.toZ, rays.org_z, rays.dir_z);
+  }
+  void set(std::size_t lane, const ShadowRays& list, std::size_t at) {
+    rays.org_x[lane] = list.toX[at];
+    rays.org_y[lane] = list.toY[at];
+    rays.org_z[lane] = list.toZ[at];
+    rays.dir_x[lane] = list.fromX[at] - list.toX[at];
+    rays.dir_y[lane] = list.fromY[at] - list.toY[at];
+    rays.dir_z[lane] = list.fromZ[at] - list.toZ[at];
+  }
+  // Lanes of [begin, end) take part.
+  void start(std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < kPacket; ++i) rays.tfar[i] = 1.f - kClearOfLight;
+    for (std::size_t i = 0; i < kPacket; ++i) valid[i] = i >= begin && i < end ? -1 : 0;
+  }
+  // Of the lanes that took part those that nothing was in the way of take part again. Whether any.
+  bool restart() {
+    int any = 0;
+    for (std::size_t i = 0; i < kPacket; ++i) any |= valid[i] &= isBlocked(i) ? 0 : -1;
+    return any != 0;
+  }
+  // Below 0: Embree's mark of what is in the way.
+  bool isBlocked(std::size_t lane) const { return rays.tfar[lane] < 0.f; }
+
+  alignas(64) RTCRay16 rays{};
+  alignas(64) std::array<int, kPacket> valid{};
+};
+
+RTCDevice newDevice() {
+  RTCDevice device = rtcNewDevice((std::string("isa=") + rayInstructionSet()).c_str());
+  CHECK(device, "Embree makes no device (error {})", static_cast<int>(rtcGetDeviceError(nullptr)));
+  return device;
+}
+
+// Rays are followed in coherent packets: first past all that lets light through by holes or not at
+// all; those that came through are then asked whether anything translucent is in the way, and only
+// those for which there is, what it takes. The first scene is not robust, as this costs a sixth:
+// overlapping triangles let nothing through either. Splitting them does no harm.
 class EmbreeTracer final : public ShadowTracer {
  public:
   explicit EmbreeTracer(const World& world)
       : world_(world),
         lookup_(*world.scene, mat4(1.f)),
-        device_(rtcNewDevice((std::string("isa=") + rayInstructionSet()).c_str())) {
-    CHECK(device_, "Embree makes no device (error {})",
-          static_cast<int>(rtcGetDeviceError(nullptr)));
-    scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
-    std::vector<std::uint32_t> opaque;
-    for (std::uint32_t i = 0; i < world.triangleCount(); ++i) {
-      const scene::Object& object = world.scene->objects[world.objects[world.owners[i]].object];
-      const bool solid =
-          world.scene->materials[object.material].alphaMode == scene::AlphaMode::Opaque;
-      (solid ? opaque : filtered_).push_back(i);
-    }
-    attach(opaque, false);
-    attach(filtered_, true);
-    rtcCommitScene(scene_);
+        device_(newDevice()),
+        solidScene_(rtcNewScene(device_)),
+        translucentScene_(rtcNewScene(device_)),
+        holes_(lookup_, *world.scene, spotsOf(trianglesOf(scene::AlphaMode::Mask))),
+        translucent_(spotsOf(trianglesOf(scene::AlphaMode::Blend))) {
+    rtcSetSceneBuildQuality(solidScene_, RTC_BUILD_QUALITY_HIGH);
+    attach(solidScene_, overlapping(world, trianglesOf(scene::AlphaMode::Opaque)));
+    attach(solidScene_, overlapping(world, trianglesOf(scene::AlphaMode::Mask)), passHoles,
+           &holes_);
+    rtcCommitScene(solidScene_);
+    rtcSetSceneFlags(translucentScene_,
+                     RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    attach(translucentScene_, cornersOf(trianglesOf(scene::AlphaMode::Blend)), nullptr,
+           translucent_.data());
+    rtcCommitScene(translucentScene_);
   }
   ~EmbreeTracer() override {
-    rtcReleaseScene(scene_);
+    rtcReleaseScene(solidScene_);
+    rtcReleaseScene(translucentScene_);
     rtcReleaseDevice(device_);
   }
   EmbreeTracer(const EmbreeTracer&) = delete;
@@ -74,71 +155,104 @@ class EmbreeTracer final : public ShadowTracer {
 
   void trace(const ShadowRays& rays, std::span<vec3> shares) const override {
     CHECK(rays.size() == shares.size());
-    Context context{.embree = {}, .world = &world_, .lookup = &lookup_, .triangles = filtered_};
-    rtcInitIntersectContext(&context.embree);
-    alignas(64) RTCRay16 packet;
-    alignas(64) std::array<int, kPacket> valid;
-    // For lanes without a ray as well: Embree 3.13.5 asks the filter about some of them.
-    std::array<vec3, kPacket> through;
-    context.shares = through.data();
-    for (unsigned i = 0; i < kPacket; ++i) {
-      packet.tnear[i] = kClearOfLight;
-      packet.time[i] = 0.f;
-      packet.mask[i] = ~0u;
-      packet.id[i] = i;
-      packet.flags[i] = 0;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    Packet packet;
+    std::vector<std::size_t> behind;  // rays with something translucent in the way
+    for (std::size_t done = 0; done < rays.size(); done += kPacket) {
+      const std::size_t count = std::min(kPacket, rays.size() - done);
+      // The last packet has some of the rays of the one before, which take part in nothing.
+      const std::size_t begin = rays.size() >= kPacket ? kPacket - count : 0;
+      const std::size_t first = done - begin;
+      if (rays.size() >= kPacket)
+        packet.setAll(rays, first);
+      else
+        for (std::size_t i = 0; i < kPacket; ++i) packet.set(i, rays, std::min(i, count - 1));
+      packet.start(begin, begin + count);
+      rtcOccluded16(packet.valid.data(), solidScene_, &context, &packet.rays);
+      for (std::size_t i = begin; i < begin + count; ++i)
+        shares[first + i] = vec3(packet.isBlocked(i) ? 0.f : 1.f);
+      if (translucent_.empty() || !packet.restart()) continue;
+      rtcOccluded16(packet.valid.data(), translucentScene_, &context, &packet.rays);
+      for (std::size_t i = begin; i < begin + count; ++i)
+        if (packet.valid[i] == -1 && packet.isBlocked(i)) behind.push_back(first + i);
     }
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-      const std::size_t count = std::min(kPacket, rays.size() - first);
-      setRays(packet, valid, rays, first, count);
-      through.fill(vec3(1.f));
-      rtcOccluded16(valid.data(), scene_, &context.embree, &packet);
-      for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
-        shares[first + i] = packet.tfar[i] < 0.f ? vec3(0.f) : through[i];
-    }
+    traceTranslucent(rays, behind, shares);
   }
 
  private:
-  void attach(std::span<const std::uint32_t> triangles, bool filtered) const {
-    if (triangles.empty()) return;
-    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // The padding that Embree asks for behind shared buffers is not there, so it keeps a copy.
-    auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX,
-                                                                 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
-                                                                 world_.positions.size()));
-    std::ranges::copy(world_.positions, positions);
-    auto* indices = static_cast<std::uint32_t*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                3 * sizeof(std::uint32_t), triangles.size()));
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-      std::copy_n(&world_.indices[3 * std::size_t{triangles[i]}], 3, &indices[3 * i]);
-    if (filtered) rtcSetGeometryOccludedFilterFunction(geometry, filter);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(scene_, geometry);
-    rtcReleaseGeometry(geometry);
+  // Sets the shares of the rays `which`, which nothing else is in the way of.
+  void traceTranslucent(const ShadowRays& rays, std::span<const std::size_t> which,
+                        std::span<vec3> shares) const {
+    if (which.empty()) return;
+    Context context(lookup_);
+    context.embree.filter = takeLight;
+    Packet packet;
+    for (std::size_t done = 0; done < which.size(); done += kPacket) {
+      const auto part = which.subspan(done, std::min(kPacket, which.size() - done));
+      for (std::size_t i = 0; i < kPacket; ++i)
+        packet.set(i, rays, part[std::min(i, part.size() - 1)]);
+      packet.start(0, part.size());
+      context.through.fill(vec3(1.f));
+      rtcOccluded16(packet.valid.data(), translucentScene_, &context.embree, &packet.rays);
+      for (std::size_t i = 0; i < part.size(); ++i)
+        shares[part[i]] = packet.isBlocked(i) ? vec3(0.f) : context.through[i];
+    }
   }
 
-  // Lanes behind the end of the list take part in nothing.
-  static void setRays(RTCRay16& packet, std::array<int, kPacket>& valid, const ShadowRays& rays,
-                      std::size_t first, std::size_t count) {
-    for (std::size_t i = 0; i < kPacket; ++i) {
-      valid[i] = i < count ? -1 : 0;
-      const std::size_t at = first + std::min(i, count - 1);
-      packet.org_x[i] = rays.fromX[at];
-      packet.org_y[i] = rays.fromY[at];
-      packet.org_z[i] = rays.fromZ[at];
-      packet.dir_x[i] = rays.toX[at] - rays.fromX[at];
-      packet.dir_y[i] = rays.toY[at] - rays.fromY[at];
-      packet.dir_z[i] = rays.toZ[at] - rays.fromZ[at];
-      packet.tfar[i] = 1.f - kClearOfSample;
+  // Of the world, those whose materials are like that.
+  std::vector<std::uint32_t> trianglesOf(scene::AlphaMode mode) const {
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t i = 0; i < world_.triangleCount(); ++i)
+      if (lookup_.materialOf(world_.objects[world_.owners[i]].object).alphaMode == mode)
+        triangles.push_back(i);
+    return triangles;
+  }
+
+  std::vector<trace::Spot> spotsOf(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<trace::Spot> spots;
+    for (const std::uint32_t triangle : triangles) {
+      const WorldObject& object = world_.objects[world_.owners[triangle]];
+      spots.push_back({.object = object.object, .triangle = triangle - object.firstTriangle});
     }
+    return spots;
+  }
+
+  std::vector<vec3> cornersOf(const std::vector<std::uint32_t>& triangles) const {
+    std::vector<vec3> corners;
+    for (const std::uint32_t triangle : triangles)
+      for (std::size_t k = 0; k < 3; ++k)
+        corners.push_back(world_.positions[world_.indices[3 * std::size_t{triangle} + k]]);
+    return corners;
+  }
+
+  // Three corners a triangle. userData: what the filter looks at; it stays where it is.
+  void attach(RTCScene scene, const std::vector<vec3>& corners, RTCFilterFunctionN filter = nullptr,
+              void* userData = nullptr) const {
+    if (corners.empty()) return;
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // The padding that Embree asks for behind shared buffers is not there, so it keeps a copy.
+    auto* positions = static_cast<vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3), corners.size()));
+    std::ranges::copy(corners, positions);
+    auto* indices = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), corners.size() / 3));
+    std::iota(indices, indices + corners.size(), 0u);
+    rtcSetGeometryUserData(geometry, userData);
+    if (filter) rtcSetGeometryOccludedFilterFunction(geometry, filter);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
   }
 
   const World& world_;
   trace::MaterialLookup lookup_;
   RTCDevice device_;
-  RTCScene scene_ = nullptr;
-  std::vector<std::uint32_t> filtered_;  // triangles of the world that let some light through
+  RTCScene solidScene_, translucentScene_;
+  Holes holes_;                           // of the alpha-tested triangles
+  std::vector<trace::Spot> translucent_;  // these triangles
 };
 
 }  // namespace

@@ -227,6 +227,7 @@ SurfacePoint MaterialLookup::at(const Spot& spot, vec3 directionW) const {
 
 vec2 transformed(const TextureSlot& slot, vec2 uv) {
   const vec2 scaled = slot.scale * uv;
+  if (slot.rotation == 0.f) return slot.offset + scaled;
   const float c = std::cos(slot.rotation), s = std::sin(slot.rotation);
   return slot.offset + vec2(c * scaled.x + s * scaled.y, -s * scaled.x + c * scaled.y);
 }

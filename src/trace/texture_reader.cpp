@@ -109,6 +109,17 @@ vec4 dataAt(const scene::Texture& texture, vec2 uv) {
 float alphaAt(const scene::Texture& texture, vec2 uv) {
   const Image& image = *texture.image;
   if (!hasAlpha(image)) return 1.f;
+  const auto channels = static_cast<std::size_t>(image.channels());
+  if (image.type() == ComponentType::U8) {  // as alphaOf(), in less time
+    const std::uint8_t* alphas = image.as<std::uint8_t>().data() + channels - 1;
+    const auto width = static_cast<std::size_t>(image.width());
+    return sample(image, uv, texture.wrapS, texture.wrapT, texture.nearest, [&](ivec2 at) {
+      return static_cast<float>(
+                 alphas[(static_cast<std::size_t>(at.y) * width + static_cast<std::size_t>(at.x)) *
+                        channels]) /
+             255.f;
+    });
+  }
   return sample(image, uv, texture.wrapS, texture.wrapT, texture.nearest,
                 [&](ivec2 at) { return alphaOf(image, at); });
 }
