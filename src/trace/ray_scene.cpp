@@ -36,7 +36,7 @@ struct Context {
   std::span<const std::uint8_t> solid;  // of each object: opaque and one-sided
   // Of the packet under way, one a lane that has a ray.
   std::span<const Ray> rays;
-  vec3* shares = nullptr;  // null: not asked for
+  vec3* shares = nullptr;
   std::span<const Passed> passed;
   std::span<int> counts;
 };
@@ -92,7 +92,6 @@ void countFilter(const RTCFilterFunctionNArguments* args) {
 
 void transmittanceFilter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);
-  if (!context.shares) return;  // countFilter, which comes next, decides
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] != -1) continue;
     const unsigned id = RTCRayN_id(args->ray, args->N, lane);
@@ -221,23 +220,6 @@ struct RayScene::Impl {
     }
   }
 
-  // The same, asking only whether anything is in the way that the filter does not let pass.
-  template <typename Before, typename Take>
-  void occluded(std::span<const Ray> rays, Context& context, const Before& before,
-                const Take& take) const {
-    alignas(64) RTCRay16 packet;
-    alignas(64) std::array<int, kPacket> valid;
-    prepare(packet);
-    for (std::size_t first = 0; first < rays.size(); first += kPacket) {
-      const std::size_t count = std::min(kPacket, rays.size() - first);
-      context.rays = rays.subspan(first, count);
-      setRays(packet, context.rays, valid);
-      before(first, count);
-      rtcOccluded16(valid.data(), top, &context.embree, &packet);
-      for (std::size_t i = 0; i < count; ++i) take(first + i, packet, i);
-    }
-  }
-
   MaterialLookup lookup;
   RTCDevice device;
   RTCScene top = nullptr;
@@ -295,14 +277,20 @@ void RayScene::closest(std::span<const Ray> rays, std::span<Hit> hits,
 void RayScene::transmittance(std::span<const Ray> rays, std::span<vec3> shares) const {
   CHECK(rays.size() == shares.size());
   Context context(impl_->lookup);
+  alignas(64) RTCRay16 packet;
+  alignas(64) std::array<int, kPacket> valid;
   std::array<vec3, kPacket> through;
   context.shares = through.data();
-  impl_->occluded(
-      rays, context, [&](std::size_t, std::size_t) { through.fill(vec3(1.f)); },
-      [&](std::size_t ray, const RTCRay16& packet, std::size_t lane) {
-        // Below 0: Embree's mark of what is in the way.
-        shares[ray] = packet.tfar[lane] < 0.f ? vec3(0.f) : through[lane];
-      });
+  prepare(packet);
+  for (std::size_t first = 0; first < rays.size(); first += kPacket) {
+    const std::size_t count = std::min(kPacket, rays.size() - first);
+    context.rays = rays.subspan(first, count);
+    setRays(packet, context.rays, valid);
+    through.fill(vec3(1.f));
+    rtcOccluded16(valid.data(), impl_->top, &context.embree, &packet);
+    for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
+      shares[first + i] = packet.tfar[i] < 0.f ? vec3(0.f) : through[i];
+  }
 }
 
 void RayScene::solidsAround(std::span<const Ray> rays, std::span<int> counts) const {
@@ -311,10 +299,10 @@ void RayScene::solidsAround(std::span<const Ray> rays, std::span<int> counts) co
   Context context(impl_->lookup);
   context.embree.filter = countFilter;
   context.solid = impl_->solid;
-  impl_->occluded(
+  impl_->intersect(
       rays, context,
       [&](std::size_t first, std::size_t count) { context.counts = counts.subspan(first, count); },
-      [](std::size_t, const RTCRay16&, std::size_t) {});
+      [](std::size_t, const RTCRayHit16&, std::size_t) {});
 }
 
 }  // namespace lucerna::trace
