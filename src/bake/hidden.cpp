@@ -11,15 +11,28 @@ namespace {
 
 using Tile = Samples::Tile;
 
-// Around the normal, none of them along it or along an axis of the scene's, where rays meet edges.
-std::array<vec3, 5> directionsAround(vec3 normal) {
-  const trace::Frame frame(normal);
-  std::array<vec3, 5> directions{glm::normalize(frame.toWorld({0.05f, 0.03f, 1.f}))};
-  for (int i = 0; i < 4; ++i) {
-    const float angle = 0.3f + 0.5f * kPi * static_cast<float>(i);
-    directions[static_cast<std::size_t>(i) + 1] =
-        glm::normalize(frame.toWorld({std::cos(angle), std::sin(angle), 0.9f}));
+constexpr std::size_t kRays = 5;
+using Directions = std::array<vec3, kRays>;
+// Of them that tell of a solid around: one may slip through an edge, or out of what is open.
+constexpr std::size_t kEnough = 4;
+
+// Around +z, none of them along it or along an axis of the scene's, where rays meet edges.
+Directions directionsAroundZ() {
+  Directions directions{vec3(0.05f, 0.03f, 1.f)};
+  for (std::size_t i = 1; i < kRays; ++i) {
+    const float angle = 0.3f + 0.5f * kPi * static_cast<float>(i - 1);
+    directions[i] = {std::cos(angle), std::sin(angle), 0.9f};
   }
+  return directions;
+}
+
+// Those that lead up the most come first, as they meet the least.
+Directions directionsAround(vec3 normal) {
+  static const Directions aroundZ = directionsAroundZ();
+  const trace::Frame frame(normal);
+  Directions directions;
+  for (std::size_t i = 0; i < kRays; ++i) directions[i] = glm::normalize(frame.toWorld(aroundZ[i]));
+  std::ranges::stable_sort(directions, std::ranges::greater{}, &vec3::y);
   return directions;
 }
 
@@ -66,19 +79,32 @@ HiddenSamples::HiddenSamples(const trace::RayScene& rays, const Occluders& occlu
                              const std::vector<std::uint32_t>& chartOf)
     : rays_(rays), occluders_(occluders), chartOf_(chartOf) {}
 
-// Sets hidden_ of these samples.
+// Sets hidden_ of these samples. Direction after direction, so that the rays of a packet go
+// together, and of those that are not sure yet.
 void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> which) {
-  asked_.clear();
-  for (const std::uint32_t i : which)
-    for (const vec3 direction : directionsAround({samples.nx[i], samples.ny[i], samples.nz[i]}))
-      asked_.push_back({.originW = positionAt(samples, i), .directionW = direction});
-  counts_.resize(asked_.size());
-  rays_.solidsAround(asked_, counts_);
-  constexpr std::size_t kRays = 5;
-  constexpr std::ptrdiff_t kEnough = 4;  // one may slip through an edge, or out of what is open
-  for (std::size_t k = 0; k < which.size(); ++k) {
-    const auto counts = std::span(counts_).subspan(kRays * k, kRays);
-    hidden_[which[k]] = std::ranges::count_if(counts, [](int n) { return n > 0; }) >= kEnough;
+  open_.clear();
+  directions_.clear();
+  if (samples.planar) directions_.push_back(directionsAround(samples.axis));
+  for (const std::uint32_t i : which) {
+    if (!samples.planar)
+      directions_.push_back(directionsAround({samples.nx[i], samples.ny[i], samples.nz[i]}));
+    open_.push_back({.sample = i, .directions = directions_.size() - 1});
+  }
+  for (std::size_t round = 0; round < kRays && !open_.empty(); ++round) {
+    asked_.clear();
+    for (const Open& o : open_)
+      asked_.push_back({.originW = positionAt(samples, o.sample),
+                        .directionW = directions_[o.directions][round]});
+    counts_.resize(asked_.size());
+    rays_.solidsAround(asked_, counts_);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < open_.size(); ++k) {
+      Open& o = open_[k];
+      ++(counts_[k] > 0 ? o.inside : o.outside);
+      if (o.inside == kEnough) hidden_[o.sample] = true;
+      if (o.inside < kEnough && o.outside <= kRays - kEnough) open_[kept++] = o;
+    }
+    open_.resize(kept);
   }
 }
 

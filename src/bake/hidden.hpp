@@ -2,6 +2,7 @@
 // would be dark, and their texels would darken what is seen beside them.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "bake/occluders.hpp"
@@ -24,6 +25,12 @@ class HiddenSamples {
   void remove(Samples& samples, std::uint32_t chart);
 
  private:
+  // A sample that is not known to be hidden or not.
+  struct Open {
+    std::uint32_t sample = 0;
+    std::size_t directions = 0;           // place in directions_
+    std::size_t inside = 0, outside = 0;  // rays that say so
+  };
   void ask(const Samples& samples, std::span<const std::uint32_t> which);
   void separate(const Samples& samples, const Samples::Tile& tile);
 
@@ -33,6 +40,8 @@ class HiddenSamples {
   std::vector<bool> hidden_;  // of the samples under way
   std::vector<std::uint32_t> which_;
   std::vector<Samples::Tile> crossed_;
+  std::vector<Open> open_;
+  std::vector<std::array<vec3, 5>> directions_;  // of rays, one by one
   std::vector<trace::Ray> asked_;
   std::vector<int> counts_;
   std::vector<vec3> shares_;

@@ -37,6 +37,17 @@ bool isInside(dvec2 weights) {
          weights.x + weights.y <= 1. + kRounding;
 }
 
+// Places in a texel, `along` along each side: one in each square of a grid, no two in a row or a
+// column of one as fine as there are places, so that edges of shadows along the chart's axes fall
+// between them one by one (Chiu, Shirley and Wang, "Multi-Jittered Sampling", Graphics Gems IV,
+// 1994, without jitter).
+dvec2 placeInTexel(std::size_t index, int along) {
+  const double side = along;
+  const dvec2 square(static_cast<double>(index % static_cast<std::size_t>(along)),
+                     static_cast<double>(index / static_cast<std::size_t>(along)));
+  return (square + dvec2(square.y + 0.5, side - square.x - 0.5) / side) / side;
+}
+
 // Texels of the block that a triangle's box meets: from first to before end.
 struct Range {
   ivec2 first, end;
@@ -46,6 +57,40 @@ Range texelsBelow(const std::array<vec2, 3>& corners, const Block& block) {
   const vec2 max = glm::max(glm::max(corners[0], corners[1]), corners[2]);
   return {glm::clamp(ivec2(glm::floor(min)) - block.corner, ivec2(0), block.size),
           glm::clamp(ivec2(glm::floor(max)) + 1 - block.corner, ivec2(0), block.size)};
+}
+
+// Of a row of the block: texels of a range that the triangle may touch, from first to before end.
+struct Span {
+  int first = 0, end = 0;
+};
+Span touchedIn(int row, const std::array<vec2, 3>& corners, const Block& block,
+               const Range& range) {
+  constexpr double kRounding = 0x1p-6;  // texels
+  const double low = block.corner.y + row - kRounding, high = low + 1. + 2. * kRounding;
+  double left = std::numeric_limits<double>::infinity(), right = -left;
+  for (std::size_t k = 0; k < 3; ++k) {
+    dvec2 p(corners[k]), q(corners[(k + 1) % 3]);
+    if (p.y > q.y) std::swap(p, q);
+    if (q.y < low || p.y > high) continue;
+    const auto at = [&](double y) { return p.x + (q.x - p.x) * ((y - p.y) / (q.y - p.y)); };
+    const double a = p.y < low ? at(low) : p.x, b = q.y > high ? at(high) : q.x;
+    left = std::min({left, a, b});
+    right = std::max({right, a, b});
+  }
+  if (left > right) return {};
+  const auto texel = [&](double x) { return static_cast<int>(std::floor(x)) - block.corner.x; };
+  return {std::max(range.first.x, texel(left - kRounding)),
+          std::min(range.end.x, texel(right + kRounding) + 1)};
+}
+
+// visit(texel of the block) of all that the triangle may touch, row by row.
+template <typename Visit>
+void eachTexelBelow(const std::array<vec2, 3>& corners, const Block& block, const Visit& visit) {
+  const Range range = texelsBelow(corners, block);
+  for (int y = range.first.y; y < range.end.y; ++y) {
+    const Span span = touchedIn(y, corners, block, range);
+    for (int x = span.first; x < span.end; ++x) visit(ivec2(x, y));
+  }
 }
 
 void clear(Samples& samples) {
@@ -126,6 +171,7 @@ ChartSampler::ChartSampler(const World& world, const Chart& chart, int side)
       blocksAcross_((chart.size.x + kBlockSide - 1) / kBlockSide),
       touching_(static_cast<std::size_t>(blocksAcross_) *
                 static_cast<std::size_t>((chart.size.y + kBlockSide - 1) / kBlockSide)) {
+  for (std::size_t i = 0; i < perTexel(); ++i) places_.push_back(placeInTexel(i, side));
   const WorldObject& object = world.objects[chart.object];
   const auto indices = world.indicesOf(object);
   for (const std::uint32_t triangle : chart.triangles) {
@@ -145,35 +191,23 @@ ChartSampler::ChartSampler(const World& world, const Chart& chart, int side)
   }
 }
 
-// Places in a texel: one in each square of a grid, no two in a row or a column of one as fine as
-// there are places, so that edges of shadows along the chart's axes fall between them one by one
-// (Chiu, Shirley and Wang, "Multi-Jittered Sampling", Graphics Gems IV, 1994, without jitter).
-dvec2 ChartSampler::place(std::size_t index) const {
-  const double side = side_;
-  const dvec2 square(static_cast<double>(index % static_cast<std::size_t>(side_)),
-                     static_cast<double>(index / static_cast<std::size_t>(side_)));
-  return (square + dvec2(square.y + 0.5, side - square.x - 0.5) / side) / side;
-}
-
 // Of several triangles at a point the first counts.
 void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
   const auto& corners = chart_.corners[triangle];
   const Barycentric barycentric(corners);
   if (barycentric.area2 == 0.) return;
-  const Range range = texelsBelow(corners, block);
-  for (int y = range.first.y; y < range.end.y; ++y)
-    for (int x = range.first.x; x < range.end.x; ++x) {
-      const auto texel = static_cast<std::size_t>(y * block.size.x + x);
-      if (left_[texel]) continue;
-      for (std::size_t i = 0; i < perTexel(); ++i) {
-        Found& found = found_[texel * perTexel() + i];
-        if (found.triangle != Found::kNothing) continue;
-        const dvec2 weights = barycentric.at(dvec2(block.corner + ivec2(x, y)) + place(i));
-        if (!isInside(weights)) continue;
-        found = {.triangle = triangle, .barycentric = vec2(weights)};
-        inside_[texel] = true;
-      }
+  eachTexelBelow(corners, block, [&](ivec2 p) {
+    const auto texel = static_cast<std::size_t>(p.y * block.size.x + p.x);
+    if (left_[texel]) return;
+    for (std::size_t i = 0; i < perTexel(); ++i) {
+      Found& found = found_[texel * perTexel() + i];
+      if (found.triangle != Found::kNothing) continue;
+      const dvec2 weights = barycentric.at(dvec2(block.corner + p) + places_[i]);
+      if (!isInside(weights)) continue;
+      found = {.triangle = triangle, .barycentric = vec2(weights)};
+      inside_[texel] = true;
     }
+  });
 }
 
 void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
@@ -182,21 +216,19 @@ void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
   const auto& corners = chart_.corners[triangle];
   const Barycentric barycentric(corners);
   if (barycentric.area2 == 0.) return;
-  const Range range = texelsBelow(corners, block);
-  for (int y = range.first.y; y < range.end.y; ++y)
-    for (int x = range.first.x; x < range.end.x; ++x) {
-      const auto texel = static_cast<std::size_t>(y * block.size.x + x);
-      if (inside_[texel] || left_[texel]) continue;
-      const dvec2 corner(block.corner + ivec2(x, y));
-      ClipPolygon polygon(corners);
-      polygon.cutTo(corner, corner + 1.);
-      const PolygonMoments inside = polygon.moments();
-      Found& found = found_[texel * perTexel()];
-      if (inside.area > kLeastArea && inside.area > found.area)
-        found = {.triangle = triangle,
-                 .barycentric = vec2(barycentric.at(inside.centroid)),
-                 .area = static_cast<float>(inside.area)};
-    }
+  eachTexelBelow(corners, block, [&](ivec2 p) {
+    const auto texel = static_cast<std::size_t>(p.y * block.size.x + p.x);
+    if (inside_[texel] || left_[texel]) return;
+    const dvec2 corner(block.corner + p);
+    ClipPolygon polygon(corners);
+    polygon.cutTo(corner, corner + 1.);
+    const PolygonMoments inside = polygon.moments();
+    Found& found = found_[texel * perTexel()];
+    if (inside.area > kLeastArea && inside.area > found.area)
+      found = {.triangle = triangle,
+               .barycentric = vec2(barycentric.at(inside.centroid)),
+               .area = static_cast<float>(inside.area)};
+  });
 }
 
 void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& samples) const {

@@ -87,7 +87,6 @@ class ChartSampler {
     vec3 flatW{0.f};                           // its own normal, unit
   };
   std::size_t perTexel() const { return static_cast<std::size_t>(side_) * side_; }
-  glm::dvec2 place(std::size_t index) const;
   void findInside(const Block& block, std::uint32_t triangle);
   void findBorder(const Block& block, std::uint32_t triangle);
   void emitTile(const Block& block, ivec2 corner, Samples& samples) const;
@@ -97,6 +96,7 @@ class ChartSampler {
 
   const Chart& chart_;
   int side_;
+  std::vector<glm::dvec2> places_;  // of samples in a texel
   std::vector<Surface> surfaces_;
   int blocksAcross_;
   std::vector<std::vector<std::uint32_t>> touching_;  // of each block: places in the chart's list

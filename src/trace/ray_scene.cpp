@@ -33,7 +33,9 @@ struct Context {
 
   RTCIntersectContext embree;  // first: Embree hands out its address
   const MaterialLookup& lookup;
-  // Of the packet under way, one a lane.
+  std::span<const std::uint8_t> solid;  // of each object: opaque and one-sided
+  // Of the packet under way, one a lane that has a ray.
+  std::span<const Ray> rays;
   vec3* shares = nullptr;
   std::span<const Passed> passed;
   std::span<int> counts;
@@ -76,13 +78,15 @@ void countFilter(const RTCFilterFunctionNArguments* args) {
     // Embree 3.13.5 asks about lanes without a ray, too.
     const unsigned id = RTCRayN_id(args->ray, args->N, lane);
     if (id >= context.counts.size()) continue;
-    const Spot spot = spotOf(args->hit, args->N, lane);
-    const scene::Material& material = context.lookup.materialOf(spot.object);
-    if (material.doubleSided || material.alphaMode != scene::AlphaMode::Opaque) continue;
-    const vec3 directionW(RTCRayN_dir_x(args->ray, args->N, lane),
-                          RTCRayN_dir_y(args->ray, args->N, lane),
-                          RTCRayN_dir_z(args->ray, args->N, lane));
-    context.counts[id] += context.lookup.frontFacing(spot, directionW) ? -1 : 1;
+    if (!context.solid[RTCHitN_instID(args->hit, args->N, lane, 0)]) continue;
+    // Ray and normal are both the object's here.
+    const vec3 direction(RTCRayN_dir_x(args->ray, args->N, lane),
+                         RTCRayN_dir_y(args->ray, args->N, lane),
+                         RTCRayN_dir_z(args->ray, args->N, lane));
+    const vec3 normal(RTCHitN_Ng_x(args->hit, args->N, lane),
+                      RTCHitN_Ng_y(args->hit, args->N, lane),
+                      RTCHitN_Ng_z(args->hit, args->N, lane));
+    context.counts[id] += glm::dot(normal, direction) < 0.f ? -1 : 1;
   }
 }
 
@@ -90,11 +94,12 @@ void transmittanceFilter(const RTCFilterFunctionNArguments* args) {
   const Context& context = *reinterpret_cast<const Context*>(args->context);
   for (unsigned lane = 0; lane < args->N; ++lane) {
     if (args->valid[lane] != -1) continue;
-    const vec3 toLightW(RTCRayN_dir_x(args->ray, args->N, lane),
-                        RTCRayN_dir_y(args->ray, args->N, lane),
-                        RTCRayN_dir_z(args->ray, args->N, lane));
-    vec3& share = context.shares[RTCRayN_id(args->ray, args->N, lane)];
-    share *= shareThrough(context.lookup, spotOf(args->hit, args->N, lane), toLightW);
+    const unsigned id = RTCRayN_id(args->ray, args->N, lane);
+    if (id >= context.rays.size()) continue;
+    // Embree's ray is the object's here, so the direction is that of the one that was asked.
+    const Spot spot = spotOf(args->hit, args->N, lane);
+    vec3& share = context.shares[id];
+    share *= shareThrough(context.lookup, spot, context.rays[id].directionW);
     if (share != vec3(0.f)) args->valid[lane] = 0;
   }
 }
@@ -133,6 +138,10 @@ struct RayScene::Impl {
   Impl(const scene::Scene& scene, const mat4& viewFromWorld, const std::string& instructionSet)
       : lookup(scene, viewFromWorld), device(makeDevice(instructionSet)) {
     top = newScene();
+    for (const scene::Object& object : scene.objects) {
+      const scene::Material& material = scene.materials[object.material];
+      solid.push_back(!material.doubleSided && material.alphaMode == scene::AlphaMode::Opaque);
+    }
     std::vector<bool> filtered(scene.meshes.size());
     for (const scene::Object& object : scene.objects)
       if (scene.materials[object.material].alphaMode != scene::AlphaMode::Opaque)
@@ -214,7 +223,8 @@ struct RayScene::Impl {
   MaterialLookup lookup;
   RTCDevice device;
   RTCScene top = nullptr;
-  std::vector<RTCScene> meshes;  // null where no object shows it
+  std::vector<RTCScene> meshes;     // null where no object shows it
+  std::vector<std::uint8_t> solid;  // of each object: opaque and one-sided
 };
 
 float Passed::pass(const Hit& hit) {
@@ -269,13 +279,13 @@ void RayScene::transmittance(std::span<const Ray> rays, std::span<vec3> shares) 
   Context context(impl_->lookup);
   alignas(64) RTCRay16 packet;
   alignas(64) std::array<int, kPacket> valid;
-  // For lanes without a ray as well: Embree 3.13.5 asks the filter about some of them.
   std::array<vec3, kPacket> through;
   context.shares = through.data();
   prepare(packet);
   for (std::size_t first = 0; first < rays.size(); first += kPacket) {
     const std::size_t count = std::min(kPacket, rays.size() - first);
-    setRays(packet, rays.subspan(first, count), valid);
+    context.rays = rays.subspan(first, count);
+    setRays(packet, context.rays, valid);
     through.fill(vec3(1.f));
     rtcOccluded16(valid.data(), impl_->top, &context.embree, &packet);
     for (std::size_t i = 0; i < count; ++i)  // below 0: Embree's mark of what is in the way
@@ -288,6 +298,7 @@ void RayScene::solidsAround(std::span<const Ray> rays, std::span<int> counts) co
   std::ranges::fill(counts, 0);
   Context context(impl_->lookup);
   context.embree.filter = countFilter;
+  context.solid = impl_->solid;
   impl_->intersect(
       rays, context,
       [&](std::size_t first, std::size_t count) { context.counts = counts.subspan(first, count); },

@@ -193,5 +193,31 @@ TEST(RayScene, CountsTheSolidsAround) {
   EXPECT_EQ(counts, (std::vector<int>{2, 1, 0, 0}));
 }
 
+// Fronts and backs are told in the world, however the object that has them is turned.
+TEST(RayScene, TurnedObjectsKeepTheirFronts) {
+  for (const float scale : {1.f, -1.f}) {
+    scene::Scene scene = testing::emptyScene();
+    addMaterial(scene).doubleSided = false;
+    addSquare(scene, {0, 0, -2}, {1, 0, 0}, {0, 1, 0});  // faces +z
+    scene::Node& node = scene.nodes[scene.objects[0].node];
+    node.rotation = glm::angleAxis(kPi, vec3(0, 1, 0));  // now at z = 2, and faces -z
+    node.scale = {scale, 1, 1};                          // mirrored, its front stays where it is
+    updateTransforms(scene);
+    const RayScene rays(scene, mat4(1.f));
+    const std::vector<Ray> asked{{.originW = {0.3f, 0.1f, 0}, .directionW = {0.01f, 0.02f, 1}},
+                                 {.originW = {0.3f, 0.1f, 5}, .directionW = {0.01f, 0.02f, -1}}};
+    std::vector<int> counts(2);
+    rays.solidsAround(asked, counts);
+    EXPECT_EQ(counts, (std::vector<int>{-1, 1})) << scale;
+    // A pane dims the light that its front faces.
+    const vec3 dimmed = testing::addPane(scene, 1);
+    scene.materials[1].doubleSided = false;
+    scene.objects[0].material = 1;
+    const auto shares = transmittance(RayScene(scene, mat4(1.f)), asked);
+    EXPECT_EQ(shares[0], vec3(1.f)) << scale;
+    EXPECT_EQ(shares[1], dimmed) << scale;
+  }
+}
+
 }  // namespace
 }  // namespace lucerna::trace
