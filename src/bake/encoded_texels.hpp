@@ -1,0 +1,18 @@
+// Single texels of maps as encoded copies have them, without encoding whole maps.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bake/plan.hpp"
+#include "bake/seam_system.hpp"
+#include "image/image.hpp"
+
+namespace lucerna::bake {
+
+// maps: Half RGB, sides of whole blocks or not. Irradiance of each place, bit by bit what a reader of
+// the file finds; of Encoding::Png, which is for looking, what the maps have.
+std::vector<vec3> encodedTexels(const std::vector<Image>& maps, std::span<const TexelPlace> places,
+                                Encoding encoding);
+
+}  // namespace lucerna::bake
