@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/check.hpp"
 #include "core/parallel.hpp"
 #include "image/bc6h.hpp"
 #include "image/rgb9e5.hpp"
@@ -18,14 +17,32 @@ vec3 texelOf(const Image& map, int x, int y) {
   return {floatFromHalf(p[0]), floatFromHalf(p[1]), floatFromHalf(p[2])};
 }
 
+void fillBlock(Image& map, const std::vector<bool>& used, ivec2 corner) {
+  const ivec2 end = glm::min(corner + kBlock, ivec2(map.width(), map.height()));
+  const auto isUsed = [&](int x, int y) {
+    return used[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width()) +
+                static_cast<std::size_t>(x)];
+  };
+  vec3 sum(0.f);
+  float count = 0.f;
+  for (int y = corner.y; y < end.y; ++y)
+    for (int x = corner.x; x < end.x; ++x)
+      if (isUsed(x, y)) sum += texelOf(map, x, y), count += 1.f;
+  if (count == 0.f) return;
+  for (int y = corner.y; y < end.y; ++y)
+    for (int x = corner.x; x < end.x; ++x)
+      for (int c = 0; c < 3 && !isUsed(x, y); ++c)
+        map.pixel<std::uint16_t>(x, y)[c] = halfFromFloat(sum[c] / count);
+}
+
 TexelPlace blockOf(TexelPlace p) {
   return {.map = p.map,
           .x = static_cast<std::uint16_t>(p.x / kBlock),
           .y = static_cast<std::uint16_t>(p.y / kBlock)};
 }
 
-// Half bits of linear values, as the maps' are.
-Bc6hTexels decodedBlock(const Image& map, TexelPlace block) {
+// One block of a map, encoded and decoded.
+Image asBc6h(const Image& map, TexelPlace block) {
   Image cut(kBlock, kBlock, 3, ComponentType::Half);
   for (int y = 0; y < kBlock; ++y)
     for (int x = 0; x < kBlock; ++x)
@@ -33,39 +50,60 @@ Bc6hTexels decodedBlock(const Image& map, TexelPlace block) {
           map.pixel<std::uint16_t>(std::min(kBlock * block.x + x, map.width() - 1),
                                    std::min(kBlock * block.y + y, map.height() - 1)),
           3, cut.pixel<std::uint16_t>(x, y));
-  const Bytes bytes = encodeBc6h(cut);
-  return decodeBc6hBlock(std::span(bytes).first<16>());
+  return decodeBc6h(encodeBc6h(cut), kBlock, kBlock);
 }
 
-std::vector<vec3> bc6hTexels(const std::vector<Image>& maps, std::span<const TexelPlace> places) {
+// Blocks without any of the places are not encoded, as that takes long.
+std::vector<vec3> bc6hTexels(const BakedLight& baked, std::span<const TexelPlace> places) {
+  std::vector<Image> maps;
+  for (std::size_t i = 0; i < baked.maps.size(); ++i)
+    maps.push_back(withoutBlackGaps(baked.maps[i], usedTexels(baked.texels, static_cast<int>(i))));
   std::vector<TexelPlace> blocks;
   for (const TexelPlace& p : places) blocks.push_back(blockOf(p));
   std::ranges::sort(blocks);
-  blocks.erase(std::ranges::unique(blocks).begin(), blocks.end());
-  std::vector<Bc6hTexels> decoded(blocks.size());
+  const auto again = std::ranges::unique(blocks);
+  blocks.erase(again.begin(), again.end());
+  std::vector<Image> decoded(blocks.size());
   parallelFor(blocks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      decoded[i] = decodedBlock(maps[blocks[i].map], blocks[i]);
+    for (std::size_t i = begin; i < end; ++i) decoded[i] = asBc6h(maps[blocks[i].map], blocks[i]);
   });
   std::vector<vec3> values;
   values.reserve(places.size());
   for (const TexelPlace& p : places) {
     const auto at = std::ranges::lower_bound(blocks, blockOf(p)) - blocks.begin();
-    const auto& rgb = decoded[static_cast<std::size_t>(at)][p.y % kBlock * kBlock + p.x % kBlock];
-    values.emplace_back(floatFromHalf(rgb[0]), floatFromHalf(rgb[1]), floatFromHalf(rgb[2]));
+    const float* rgb =
+        decoded[static_cast<std::size_t>(at)].pixel<float>(p.x % kBlock, p.y % kBlock);
+    values.emplace_back(rgb[0], rgb[1], rgb[2]);
   }
   return values;
 }
 
 }  // namespace
 
-std::vector<vec3> encodedTexels(const std::vector<Image>& maps, std::span<const TexelPlace> places,
+std::vector<bool> usedTexels(const MapTexels& texels, int map) {
+  std::vector<bool> used = texels.touched[static_cast<std::size_t>(map)];
+  for (int y = 0; y < texels.side; ++y)
+    for (int x = 0; x < texels.side; ++x)
+      if (texels.isBeside(map, {x, y}))
+        used[static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.side) +
+             static_cast<std::size_t>(x)] = true;
+  return used;
+}
+
+Image withoutBlackGaps(const Image& map, const std::vector<bool>& used) {
+  Image filled = map;
+  for (int y = 0; y < map.height(); y += kBlock)
+    for (int x = 0; x < map.width(); x += kBlock) fillBlock(filled, used, {x, y});
+  return filled;
+}
+
+std::vector<vec3> encodedTexels(const BakedLight& baked, std::span<const TexelPlace> places,
                                 Encoding encoding) {
-  if (encoding == Encoding::Bc6h) return bc6hTexels(maps, places);
+  if (encoding == Encoding::Bc6h) return bc6hTexels(baked, places);
   std::vector<vec3> values;
   values.reserve(places.size());
   for (const TexelPlace& p : places) {
-    const vec3 value = texelOf(maps[p.map], p.x, p.y);
+    const vec3 value = texelOf(baked.maps[p.map], p.x, p.y);
     values.push_back(encoding == Encoding::Rgb9e5 ? fromRgb9e5(toRgb9e5(value)) : value);
   }
   return values;

@@ -57,7 +57,7 @@ void forShared(const SeamSystem& system, Lit& lit, Visit visit) {
 std::vector<dvec3> sumOf(const SeamSystem& system, const BakedLight& baked, const Light& light,
                          Encoding encoding = Encoding::Png) {
   std::vector<dvec3> sum;
-  for (const vec3& irradiance : encodedTexels(baked.maps, system.places, encoding))
+  for (const vec3& irradiance : encodedTexels(baked, system.places, encoding))
     sum.push_back(light.brightness(irradiance));
   for (const std::vector<LitTexel>& lit : baked.groups)
     forShared(system, lit, [&](std::uint32_t unknown, const LitTexel& texel) {
@@ -187,8 +187,7 @@ SeamReport closeSeams(const Plan& plan, BakedLight& baked) {
   report.after = stepsOf(system, sumOf(system, baked, light));
   for (const Encoding encoding : plan.settings.encodings)
     if (encoding != Encoding::Png)
-      report.encoded.push_back(
-          {encoding, stepsOf(system, sumOf(system, baked, light, encoding))});
+      report.encoded.push_back({encoding, stepsOf(system, sumOf(system, baked, light, encoding))});
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   report.seconds = seconds.count();
   return report;
