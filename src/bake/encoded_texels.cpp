@@ -17,24 +17,6 @@ vec3 texelOf(const Image& map, int x, int y) {
   return {floatFromHalf(p[0]), floatFromHalf(p[1]), floatFromHalf(p[2])};
 }
 
-void fillBlock(Image& map, const std::vector<bool>& used, ivec2 corner) {
-  const ivec2 end = glm::min(corner + kBlock, ivec2(map.width(), map.height()));
-  const auto isUsed = [&](int x, int y) {
-    return used[static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width()) +
-                static_cast<std::size_t>(x)];
-  };
-  vec3 sum(0.f);
-  float count = 0.f;
-  for (int y = corner.y; y < end.y; ++y)
-    for (int x = corner.x; x < end.x; ++x)
-      if (isUsed(x, y)) sum += texelOf(map, x, y), count += 1.f;
-  if (count == 0.f) return;
-  for (int y = corner.y; y < end.y; ++y)
-    for (int x = corner.x; x < end.x; ++x)
-      for (int c = 0; c < 3 && !isUsed(x, y); ++c)
-        map.pixel<std::uint16_t>(x, y)[c] = halfFromFloat(sum[c] / count);
-}
-
 TexelPlace blockOf(TexelPlace p) {
   return {.map = p.map,
           .x = static_cast<std::uint16_t>(p.x / kBlock),
@@ -54,10 +36,7 @@ Image asBc6h(const Image& map, TexelPlace block) {
 }
 
 // Blocks without any of the places are not encoded, as that takes long.
-std::vector<vec3> bc6hTexels(const BakedLight& baked, std::span<const TexelPlace> places) {
-  std::vector<Image> maps;
-  for (std::size_t i = 0; i < baked.maps.size(); ++i)
-    maps.push_back(withoutBlackGaps(baked.maps[i], usedTexels(baked.texels, static_cast<int>(i))));
+std::vector<vec3> bc6hTexels(std::span<const Image> maps, std::span<const TexelPlace> places) {
   std::vector<TexelPlace> blocks;
   for (const TexelPlace& p : places) blocks.push_back(blockOf(p));
   std::ranges::sort(blocks);
@@ -80,30 +59,13 @@ std::vector<vec3> bc6hTexels(const BakedLight& baked, std::span<const TexelPlace
 
 }  // namespace
 
-std::vector<bool> usedTexels(const MapTexels& texels, int map) {
-  std::vector<bool> used = texels.touched[static_cast<std::size_t>(map)];
-  for (int y = 0; y < texels.side; ++y)
-    for (int x = 0; x < texels.side; ++x)
-      if (texels.isBeside(map, {x, y}))
-        used[static_cast<std::size_t>(y) * static_cast<std::size_t>(texels.side) +
-             static_cast<std::size_t>(x)] = true;
-  return used;
-}
-
-Image withoutBlackGaps(const Image& map, const std::vector<bool>& used) {
-  Image filled = map;
-  for (int y = 0; y < map.height(); y += kBlock)
-    for (int x = 0; x < map.width(); x += kBlock) fillBlock(filled, used, {x, y});
-  return filled;
-}
-
-std::vector<vec3> encodedTexels(const BakedLight& baked, std::span<const TexelPlace> places,
+std::vector<vec3> encodedTexels(std::span<const Image> maps, std::span<const TexelPlace> places,
                                 Encoding encoding) {
-  if (encoding == Encoding::Bc6h) return bc6hTexels(baked, places);
+  if (encoding == Encoding::Bc6h) return bc6hTexels(maps, places);
   std::vector<vec3> values;
   values.reserve(places.size());
   for (const TexelPlace& p : places) {
-    const vec3 value = texelOf(baked.maps[p.map], p.x, p.y);
+    const vec3 value = texelOf(maps[p.map], p.x, p.y);
     values.push_back(encoding == Encoding::Rgb9e5 ? fromRgb9e5(toRgb9e5(value)) : value);
   }
   return values;

@@ -99,8 +99,8 @@ std::uint64_t hashOf(const Plan& plan) {
     for (const auto& set : mesh.texCoords) hash = hashOfList(set, hash);
     hash = hashOfList(mesh.colors, hash);
   }
-  // Cube maps too, as shadow rays ask a material for its opacity where it reflects one; backgrounds
-  // light nothing, but are told from other pictures by no more than who uses them.
+  // All six pictures of cube maps: shadow rays ask for the opacity of what reflects one. Those of a
+  // background, which lights nothing (--sky does), are among them only because all are.
   for (const scene::Texture& texture : scene.textures) {
     hash = hashBytes(
         texture.image->bytes(),

@@ -57,7 +57,7 @@ void forShared(const SeamSystem& system, Lit& lit, Visit visit) {
 std::vector<dvec3> sumOf(const SeamSystem& system, const BakedLight& baked, const Light& light,
                          Encoding encoding = Encoding::Png) {
   std::vector<dvec3> sum;
-  for (const vec3& irradiance : encodedTexels(baked, system.places, encoding))
+  for (const vec3& irradiance : encodedTexels(baked.maps, system.places, encoding))
     sum.push_back(light.brightness(irradiance));
   for (const std::vector<LitTexel>& lit : baked.groups)
     forShared(system, lit, [&](std::uint32_t unknown, const LitTexel& texel) {

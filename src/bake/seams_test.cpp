@@ -8,10 +8,8 @@
 #include <functional>
 #include <map>
 
-#include "bake/encoded_texels.hpp"
 #include "bake/solve_seams.hpp"
 #include "core/parallel.hpp"
-#include "image/bc6h.hpp"
 #include "image/ktx2.hpp"
 
 namespace lucerna::bake {
@@ -351,11 +349,8 @@ TEST(Seams, StepsOfEncodedMapsAreThoseOfWholeMaps) {
   for (const EncodedSteps& steps : report.encoded) {
     BakedLight read = baked;
     for (std::size_t i = 0; i < read.maps.size(); ++i) {
-      const bool blocks = steps.encoding == Encoding::Bc6h;
-      const Image map = blocks ? withoutBlackGaps(baked.maps[i], usedTexels(baked.texels, int(i)))
-                               : baked.maps[i];
-      const auto format = blocks ? HdrFormat::Bc6h : HdrFormat::Rgb9e5;
-      const auto layers = decodeKtx2(encodeKtx2({&map, 1}, format), "map");
+      const auto format = steps.encoding == Encoding::Bc6h ? HdrFormat::Bc6h : HdrFormat::Rgb9e5;
+      const auto layers = decodeKtx2(encodeKtx2({&baked.maps[i], 1}, format), "map");
       ASSERT_TRUE(layers);
       read.maps[i] = converted(layers->front(), ComponentType::Half, 3);
     }
@@ -363,30 +358,6 @@ TEST(Seams, StepsOfEncodedMapsAreThoseOfWholeMaps) {
     const float found = percentile99(stepsOf(plan, read));
     EXPECT_NEAR(found, steps.after.percentile99, 0.3f * found + 0.1f * kSeen);
   }
-}
-
-// Black texels that nothing shows cost those beside them precision.
-TEST(Seams, BlocksOfBc6hAreBetterWithoutBlackGaps) {
-  TestScene scene;
-  scene.add(sphere(24));
-  const Plan plan = planOf(scene, 20.f);
-  const BakedLight baked = bakedOf(plan, {wavy});
-  const std::vector<bool> used = usedTexels(baked.texels, 0);
-  const Image filled = withoutBlackGaps(baked.maps[0], used);
-  std::array<double, 2> errors{};
-  for (const std::size_t i : {0u, 1u}) {
-    const Image read =
-        decodeBc6h(encodeBc6h(i == 0 ? baked.maps[0] : filled), filled.width(), filled.height());
-    for (int y = 0; y < read.height(); ++y)
-      for (int x = 0; x < read.width(); ++x)
-        for (int c = 0; c < 3; ++c)
-          if (used[static_cast<std::size_t>(y) * 256 + static_cast<std::size_t>(x)]) {
-            const auto half = baked.maps[0].pixel<std::uint16_t>(x, y)[c];
-            EXPECT_EQ(filled.pixel<std::uint16_t>(x, y)[c], half);
-            errors[i] += std::pow(read.pixel<float>(x, y)[c] - floatFromHalf(half), 2.);
-          }
-  }
-  EXPECT_LT(errors[1], 0.8 * errors[0]);
 }
 
 TEST(Seams, AnyNumberOfThreadsGivesTheSameBits) {

@@ -5,7 +5,6 @@
 #include <set>
 
 #include "bake/bake_order.hpp"
-#include "bake/encoded_texels.hpp"
 #include "bake/make_patch.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
@@ -49,18 +48,15 @@ Image pictureOf(const Image& map, float white) {
   return picture;
 }
 
-Result<FileEntry> writeEncoded(const BakedLight& baked, std::size_t index, Encoding encoding,
+Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding encoding,
                                const fs::path& folder, float white) {
-  const Image& map = baked.maps[index];
   switch (encoding) {
     case Encoding::Rgb9e5:
       return lightmap::writeEntry(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
                                   encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
-    case Encoding::Bc6h: {
-      const Image filled = withoutBlackGaps(map, usedTexels(baked.texels, static_cast<int>(index)));
+    case Encoding::Bc6h:
       return lightmap::writeEntry(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
-                                  encodeKtx2({&filled, 1}, HdrFormat::Bc6h));
-    }
+                                  encodeKtx2({&map, 1}, HdrFormat::Bc6h));
     case Encoding::Png:
       break;
   }
@@ -77,8 +73,8 @@ Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, s
   LUCERNA_TRY(master, lightmap::writeEntry(folder, name, bytes));
   entry.master = std::move(master);
   for (const Encoding encoding : plan.settings.encodings) {
-    LUCERNA_TRY(encoded,
-                writeEncoded(baked, index, encoding, folder, irradianceOfWhite(*plan.world.scene)));
+    LUCERNA_TRY(encoded, writeEncoded(baked.maps[index], index, encoding, folder,
+                                      irradianceOfWhite(*plan.world.scene)));
     entry.encoded.push_back(std::move(encoded));
   }
   entry.largest = largestOf(baked.maps[index]);
@@ -111,6 +107,18 @@ vec3 colorOf(const LightGroup& group) {
   return group.lights.empty() ? vec3(1.f) : sum / static_cast<float>(group.lights.size());
 }
 
+// The texels that a lookup may meet: on the scene, and the filled ones beside them.
+std::vector<std::vector<bool>> usedTexels(const MapTexels& texels) {
+  std::vector<std::vector<bool>> used = texels.touched;
+  const int side = texels.side;
+  for (std::size_t map = 0; map < used.size(); ++map)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        if (texels.isBeside(static_cast<int>(map), {x, y}))
+          used[map][static_cast<std::size_t>(y) * side + x] = true;
+  return used;
+}
+
 MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<const LitTexel> lit,
                     float white) {
   std::vector<PatchTexel> texels;
@@ -129,9 +137,7 @@ MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<
 Status writePatches(const Plan& plan, const BakedLight& baked, const lightmap::Layout& layout,
                     const fs::path& folder, Manifest& manifest) {
   if (plan.groups.size() < 2) return {};
-  std::vector<std::vector<bool>> used;
-  for (std::size_t i = 0; i < baked.maps.size(); ++i)
-    used.push_back(usedTexels(baked.texels, static_cast<int>(i)));
+  const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
   const PatchMaker maker(layout, used);
   const float white = irradianceOfWhite(*plan.world.scene);
   std::vector<MadePatch> made(plan.groups.size());
