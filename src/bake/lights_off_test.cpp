@@ -93,16 +93,19 @@ scene::Scene without(scene::Scene scene, const std::string& group) {
   return scene;
 }
 
-// Each group off beside a bake of all others (--lights), which is to be the same; the last one also
-// beside a bake in which the others are always on. There, seams are closed for all light together,
-// and texels inside of solids take the darkest of all together: some of the texels there differ.
-void expectSame(const scene::Scene& scene, float density, std::size_t groups) {
+// Each `step`-th group off beside a bake of all others (--lights), which is to be the same; the
+// last one also beside a bake in which the others are always on. There, seams are closed for all
+// light together, and texels inside of solids take the darkest of all together: some of the texels
+// there differ.
+void expectSame(const scene::Scene& scene, float density, std::size_t groups,
+                std::size_t step = 1) {
   const float white = irradianceOfWhite(scene);
   const lightmap::Lightmap all = bakeOf(scene, density);
   const std::vector<std::string> names = groupsOf(all);
   ASSERT_EQ(names.size(), groups);
   const std::vector<Image> on = mapsWithout(all, "");
-  for (const std::string& off : names) {
+  for (std::size_t i = 0; i < groups; i += step) {
+    const std::string& off = names[i];
     const std::vector<Image> switched = mapsWithout(all, off);
     EXPECT_GT(compare(on, switched, white).largest, 10 * kSeen) << off << " lights nothing";
     std::vector<std::string> others{"always-on"};
@@ -127,13 +130,13 @@ TEST(LightsOff, AnAtriumWhoseLampsAreFourGroups) {
   scene::Scene scene = sceneOf("builtin:atrium");
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     scene.lights[i].group = fmt::format("row-{}", i % 4);
-  expectSame(scene, 2.f, 4);
+  expectSame(scene, 1.f, 4);
 }
 
 TEST(LightsOff, ANightCitysThirteenLamps) {
   scene::Scene scene = sceneOf("builtin:nightcity?blocks=6");
-  scene.bake.areaLights = false;  // what always shines takes time and is the same in all bakes
-  expectSame(scene, 0.2f, 13);
+  scene.bake.areaLights = false;   // what always shines takes time and is the same in all bakes
+  expectSame(scene, 0.2f, 13, 6);  // all take half a minute and give the same
 }
 
 }  // namespace
