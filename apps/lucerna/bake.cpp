@@ -72,6 +72,9 @@ Json describe(const bake::SeamSteps& steps) {
 }
 
 Json describe(const bake::SeamReport& seams) {
+  Json encoded = Json::object();
+  for (const bake::EncodedSteps& steps : seams.encoded)
+    encoded[steps.encoding == bake::Encoding::Bc6h ? "bc6h" : "rgb9e5"] = describe(steps.after);
   return {{"edges", seams.seams},
           {"texels", seams.texels},
           {"samples", seams.samples},
@@ -79,6 +82,7 @@ Json describe(const bake::SeamReport& seams) {
           {"most_iterations", seams.mostIterations},
           {"before", describe(seams.before)},
           {"after", describe(seams.after)},
+          {"encoded", std::move(encoded)},
           {"seconds", seams.seconds}};
 }
 

@@ -135,7 +135,7 @@ BakedLight emptyLight(const Plan& plan) {
   return baked;
 }
 
-void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light) {
+void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light) {
   for (std::uint32_t b = 0; b < unit.blocks; ++b) {
     const Block& block = plan.blocks[unit.firstBlock + b];
     const BlockLight& blockLight = light.blocks[b];

@@ -39,7 +39,7 @@ struct BakedLight {
 };
 
 BakedLight emptyLight(const Plan& plan);
-void place(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light);
+void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light);
 
 // Gives texels beside those that the scene touches the light of these, for bilinear filtering; in
 // the maps and in the groups. Texels inside of solids get the darkest: what is on the other side of

@@ -121,7 +121,7 @@ Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
       if (!light)
         return error(ErrorKind::Input, "{}: is damaged; remove it and bake that part again",
                      path.string());
-      place(merged.baked, plan, plan.units[unit], *light);
+      putInMaps(merged.baked, plan, plan.units[unit], *light);
       merged.done[unit] = true;
       progress.advance();
       return {};

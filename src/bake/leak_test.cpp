@@ -92,7 +92,7 @@ std::vector<Shown> bake(const scene::Scene& scene, int positions) {
   const LightScene lightScene(plan);
   UnitLighter lighter(plan, lightScene);
   BakedLight baked = emptyLight(plan);
-  for (const Unit& unit : plan.units) place(baked, plan, unit, lighter.light(unit));
+  for (const Unit& unit : plan.units) putInMaps(baked, plan, unit, lighter.light(unit));
   dilate(baked);
   std::vector<std::vector<Image>> maps;
   for (const Image& map : baked.maps) maps.push_back(encodings(map));

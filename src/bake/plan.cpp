@@ -6,6 +6,7 @@
 
 #include "bake/cancelled.hpp"
 #include "bake/plan_hash.hpp"
+#include "core/progress.hpp"
 #include "core/text.hpp"
 
 namespace lucerna::bake {
@@ -39,7 +40,7 @@ Result<PackedCharts> packed(const Charts& charts, const BakeSettings& settings) 
 }
 
 // A density below the settings' whose maps are not too many, found by trying; of two digits. 0 if
-// there is none near what the charts' areas let hope for.
+// there is none near what the charts' areas let hope for, or the user pressed Ctrl-C.
 float densityThatFits(const World& world, const Charts& charts, BakeSettings settings) {
   constexpr int kMostTries = 20;
   constexpr float kStep = 0.92f;
@@ -49,12 +50,26 @@ float densityThatFits(const World& world, const Charts& charts, BakeSettings set
   const double room =
       static_cast<double>(settings.pack.mostMaps) * settings.pack.side * settings.pack.side;
   float density = settings.density * static_cast<float>(std::min(1., std::sqrt(room / texels)));
-  for (int i = 0; i < kMostTries; ++i, density *= kStep) {
+  Progress progress("looking for a density that fits", kMostTries);
+  for (int i = 0; i < kMostTries && !Progress::cancelled(); ++i, density *= kStep) {
     const float unit = std::pow(10.f, std::floor(std::log10(density)) - 1.f);
     settings.density = std::floor(density / unit) * unit;
     if (packed(chartsOf(world, settings), settings)) return settings.density;
+    progress.advance();
   }
   return 0.f;
+}
+
+// Lists in one order and without what is said twice, as their order changes nothing.
+BakeSettings inOrder(BakeSettings settings) {
+  const auto sort = [](auto& list) {
+    std::ranges::sort(list);
+    const auto again = std::ranges::unique(list);
+    list.erase(again.begin(), again.end());
+  };
+  sort(settings.groups);
+  sort(settings.encodings);
+  return settings;
 }
 
 // Leaves the groups that are asked for; what is always on is one of the name "always-on".
@@ -126,7 +141,7 @@ std::uint64_t Plan::texels() const {
 
 Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   Plan plan;
-  plan.settings = settings;
+  plan.settings = inOrder(settings);
   plan.world = makeWorld(scene);
   plan.charts = chartsOf(plan.world, settings);
   LUCERNA_TRY_VOID(checkGoesOn());

@@ -99,12 +99,16 @@ std::uint64_t hashOf(const Plan& plan) {
     for (const auto& set : mesh.texCoords) hash = hashOfList(set, hash);
     hash = hashOfList(mesh.colors, hash);
   }
-  for (const scene::Texture& texture : scene.textures)
+  // All six pictures of cube maps: shadow rays ask for the opacity of what reflects one. Those of a
+  // background, which lights nothing (--sky does), are among them only because all are.
+  for (const scene::Texture& texture : scene.textures) {
     hash = hashBytes(
         texture.image->bytes(),
         hashCombine(hashCombine(hash, shapeOf(*texture.image)),
                     static_cast<std::uint64_t>(texture.wrapS) * 8 +
                         static_cast<std::uint64_t>(texture.wrapT) * 2 + (texture.nearest ? 1 : 0)));
+    for (const auto& face : texture.faces) hash = hashBytes(face->bytes(), hash);
+  }
   return hash;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/encoded_texels.hpp"
 #include "bake/seconds.hpp"
 #include "bake/solve_seams.hpp"
 #include "core/parallel.hpp"
@@ -22,8 +23,9 @@ class Light {
   explicit Light(const scene::Scene& scene) : white_(irradianceOfWhite(scene)) {}
 
   dvec3 brightness(const std::uint16_t* rgb) const {
-    return dvec3(floatFromHalf(rgb[0]), floatFromHalf(rgb[1]), floatFromHalf(rgb[2])) / white_;
+    return brightness({floatFromHalf(rgb[0]), floatFromHalf(rgb[1]), floatFromHalf(rgb[2])});
   }
+  dvec3 brightness(vec3 irradiance) const { return dvec3(irradiance) / white_; }
   std::array<std::uint16_t, 3> halves(dvec3 brightness) const {
     const vec3 e(glm::min(brightness * white_, double{kLargestHalf}));
     return {halfFromFloat(e.x), halfFromFloat(e.y), halfFromFloat(e.z)};
@@ -52,11 +54,12 @@ void forShared(const SeamSystem& system, Lit& lit, Visit visit) {
   }
 }
 
-// What the unknowns show with everything on.
-std::vector<dvec3> sumOf(const SeamSystem& system, BakedLight& baked, const Light& light) {
+// What the unknowns show with everything on. encoding: of the maps; PNG: as they are.
+std::vector<dvec3> sumOf(const SeamSystem& system, const BakedLight& baked, const Light& light,
+                         Encoding encoding = Encoding::Png) {
   std::vector<dvec3> sum;
-  for (const TexelPlace& place : system.places)
-    sum.push_back(light.brightness(pixel(baked, place)));
+  for (const vec3& irradiance : encodedTexels(baked.maps, system.places, encoding))
+    sum.push_back(light.brightness(irradiance));
   for (const std::vector<LitTexel>& lit : baked.groups)
     forShared(system, lit, [&](std::uint32_t unknown, const LitTexel& texel) {
       sum[unknown] += light.brightness(texel.rgb.data());
@@ -191,6 +194,9 @@ SeamReport closeSeams(const Plan& plan, BakedLight& baked) {
     }
   });
   report.after = stepsOf(system, sumOf(system, baked, light));
+  for (const Encoding encoding : plan.settings.encodings)
+    if (encoding != Encoding::Png)
+      report.encoded.push_back({encoding, stepsOf(system, sumOf(system, baked, light, encoding))});
   report.seconds = secondsSince(start);
   return report;
 }

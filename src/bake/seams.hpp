@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bake/assemble.hpp"
 #include "bake/plan.hpp"
@@ -18,6 +19,11 @@ namespace lucerna::bake {
 struct SeamSteps {
   double median = 0., percentile99 = 0., largest = 0.;
 };
+// The same of maps as a copy in that encoding has them; groups as they are.
+struct EncodedSteps {
+  Encoding encoding;
+  SeamSteps after;
+};
 struct SeamReport {
   std::uint64_t seams = 0;    // edges
   std::uint64_t texels = 0;   // unknowns
@@ -25,6 +31,7 @@ struct SeamReport {
   std::uint64_t parts = 0;    // solved each by itself
   std::uint64_t mostIterations = 0;
   SeamSteps before, after;
+  std::vector<EncodedSteps> encoded;  // of copies that the settings ask for, but PNG
   double seconds = 0.;
 };
 

@@ -10,6 +10,7 @@
 
 #include "bake/solve_seams.hpp"
 #include "core/parallel.hpp"
+#include "image/ktx2.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -332,6 +333,31 @@ TEST(Seams, AWallDividesLight) {
   EXPECT_GT(stepsOf(plan, after, walled).front(), 0.79f);
   EXPECT_GT(percentile99(stepsOf(plan, before, open)), 0.5f);
   EXPECT_LT(percentile99(stepsOf(plan, after, open)), kSeen);
+}
+
+// What the report says of encoded maps is what whole maps show that are encoded and read again.
+TEST(Seams, StepsOfEncodedMapsAreThoseOfWholeMaps) {
+  TestScene scene;
+  scene.add(sphere(24));
+  Plan plan = planOf(scene, 20.f);
+  plan.settings.encodings = {Encoding::Rgb9e5, Encoding::Bc6h, Encoding::Png};
+  BakedLight baked = bakedOf(plan, {wavy});
+  const SeamReport report = closeSeams(plan, baked);
+  ASSERT_EQ(report.encoded.size(), 2u);
+  EXPECT_LE(report.encoded[0].after.percentile99, kSeen);  // RGB9E5
+  EXPECT_GT(report.encoded[1].after.percentile99, report.encoded[0].after.percentile99);
+  for (const EncodedSteps& steps : report.encoded) {
+    BakedLight read = baked;
+    for (std::size_t i = 0; i < read.maps.size(); ++i) {
+      const auto format = steps.encoding == Encoding::Bc6h ? HdrFormat::Bc6h : HdrFormat::Rgb9e5;
+      const auto layers = decodeKtx2(encodeKtx2({&baked.maps[i], 1}, format), "map");
+      ASSERT_TRUE(layers);
+      read.maps[i] = converted(layers->front(), ComponentType::Half, 3);
+    }
+    // The test's own points are others than those of the report.
+    const float found = percentile99(stepsOf(plan, read));
+    EXPECT_NEAR(found, steps.after.percentile99, 0.3f * found + 0.1f * kSeen);
+  }
 }
 
 TEST(Seams, AnyNumberOfThreadsGivesTheSameBits) {

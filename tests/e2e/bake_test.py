@@ -319,6 +319,19 @@ class BakeTest(unittest.TestCase):
                    "'builtin:cornell' there", "'builtin:cornell?boxes=0' here")
         self.assertEqual(sorted(os.listdir(self.folder / "o" / "work")), ["bake.json", "shard-1-of-2.log"])
 
+    def test_the_order_of_lists_is_no_setting(self):
+        (self.folder / "floor.obj").write_text("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+        (self.folder / "lamps.json").write_text(json.dumps(
+            {"lucerna": "scene/1", "include": [{"file": "floor.obj"}],
+             "lights": [{"name": group, "kind": "point", "intensity": 100, "position": [0, 1, 0], "group": group}
+                        for group in "ab"]}))
+        self.ok(self.bake("l", *SMALL, "--encode", "rgb9e5,bc6h", "--lights", "b,a", scene="lamps.json"))
+        run = self.ok(self.bake("l", *SMALL, "--encode", "bc6h,rgb9e5,bc6h", "--lights", "a,b", "--resume",
+                                scene="lamps.json"))
+        self.assertIn("nothing is left to do", run.stderr)
+        self.fails(2, self.bake("l", *SMALL, "--encode", "bc6h", "--lights", "a,b", "--resume", scene="lamps.json"),
+                   "other settings")
+
     def test_a_scene_file_that_changed_is_refused(self):
         lamp = {"kind": "point", "intensity": 100, "position": [0, 1, 0]}
 
