@@ -21,7 +21,8 @@ void addLightmapFlags(CLI::App& command, app::RenderSettings& settings) {
                          "DIR that `lucerna bake` made of this scene: its light instead of those "
                          "lights'");
   addRepeatable(command, "--lights-off", settings.lightsOff,
-                "GROUP of the lightmap's lights that is off; repeatable")
+                "GROUP,GROUP... of the lightmap's lights that are off; repeatable")
+      ->delimiter(',')
       ->needs(lightmap);
 }
 

@@ -42,10 +42,25 @@ Status takeScene(Session& session, Result<scene::Scene> loaded) {
   return {};
 }
 
+// A GBuffer that leaves baked light out, while the lights that were baked are off.
+void warnOfDarkPipeline(const graph::Pipeline& pipeline) {
+  for (const graph::PassRow& row : pipeline.passes) {
+    if (row.type != "GBuffer" || !row.enabled) continue;
+    const auto baked = row.params.find("baked");
+    if (baked != row.params.end() && baked->second == graph::Value(true)) continue;
+    log::warning(
+        "--lightmap: the pipeline '{}' does not draw baked light, and the lights that were baked "
+        "are off; wanted --pipeline lightmapped or forward, or {} with baked: true",
+        pipeline.name, row.name);
+    return;
+  }
+}
+
 // Before the scene goes to the GPU: objects get meshes that know their places in the maps.
 Status takeLightmaps(Session& session) {
   if (session.settings.lightmap.empty()) return {};
   LUCERNA_TRY(maps, takeBakedLight(session.scene, session.settings));
+  warnOfDarkPipeline(session.pipeline);
   return render::upload(*session.device, session.lightmaps, maps);
 }
 

@@ -125,10 +125,25 @@ void addWarnings(Plan& plan) {
         "{} charts are larger than a map and have fewer texels a metre; larger maps (--size) or "
         "a lower --density would hold them",
         charts.shrunk));
+  constexpr double kFew = 4.;  // texels
+  const double each =
+      static_cast<double>(plan.texels()) / static_cast<double>(charts.charts.size());
+  if (each < kFew) {
+    Aabb bounds;
+    for (const scene::Object& object : plan.world.scene->objects) bounds.grow(object.boundsW);
+    plan.warnings.push_back(
+        fmt::format("charts have {:.1f} texels on average, in a scene of {:.3g} m: {:.3g} texels a "
+                    "metre are few for it; wanted a higher --density",
+                    each, bounds.diagonal(), plan.settings.density));
+  }
   const bool dark =
       !(plan.emittersShine() && anyEmits(plan.world)) &&
       std::ranges::all_of(plan.groups, [](const LightGroup& g) { return g.lights.empty(); });
-  if (dark) plan.warnings.push_back("the scene has no lights to bake; the maps will be black");
+  if (dark)
+    plan.warnings.push_back(
+        "the scene has no lights to bake: the maps will be black; --sky 1 would give it the light "
+        "of an "
+        "even sky");
 }
 
 }  // namespace

@@ -81,6 +81,10 @@ std::vector<std::string> split(std::string_view text, char separator) {
   }
 }
 
+std::string counted(std::uint64_t count, std::string_view noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
 std::string bytesText(std::uint64_t bytes) {
   static constexpr const char* kUnits[] = {"B", "KiB", "MiB", "GiB"};
   auto value = static_cast<double>(bytes);

@@ -73,5 +73,11 @@ TEST(Hash, SpreadsHighBitsOfTheInput) {
   EXPECT_EQ(seen.size(), 256u);
 }
 
+TEST(Text, CountsOneAndMany) {
+  EXPECT_EQ(counted(1, "map"), "1 map");
+  EXPECT_EQ(counted(0, "map"), "0 maps");
+  EXPECT_EQ(counted(12, "chart"), "12 charts");
+}
+
 }  // namespace
 }  // namespace lucerna
