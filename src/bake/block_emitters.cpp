@@ -11,6 +11,8 @@
 namespace lucerna::bake {
 namespace {
 
+constexpr float kMostSplit = 4.f;  // points along each side of a cell
+
 float distanceBetween(const Aabb& a, const Aabb& b) {
   return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), vec3(0.f)));
 }
@@ -145,10 +147,24 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   }
 }
 
+// A cell that is too large for a grid is halved first, down to a texel of its own.
+void BlockLighter::lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                                 float distance) {
+  if (cell.size <= std::max(kMostSplit * settings_.emitterSize * distance, cell.texel)) {
+    lightByNode(samples, tile, cell, distance);
+    return;
+  }
+  for (const float which : {-1.f, 1.f}) {
+    const EmitterNode half = halfOf(cell, which);
+    const float toHalf = distanceBetween(half.boxW, tile.boundsW);
+    if (toHalf < half.reach && mayLight(samples, tile, half))
+      lightByHalves(samples, tile, half, toHalf);
+  }
+}
+
 // A node, or a cell that is small enough for its distance: one point.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                                float distance) {
-  constexpr float kMostSplit = 4.f;  // points along each side of a cell
   const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
   if (node.isCell() && wanted > 1.f)
     lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
@@ -194,7 +210,10 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
     const bool isOne = node.isCell() || (node.emission.normalW != vec3(0.f) &&
                                          node.size <= settings_.emitterSize * distance);
     if (isOne) {
-      lightByNode(samples, tile, node, distance);
+      if (node.isCell())
+        lightByHalves(samples, tile, node, distance);
+      else
+        lightByNode(samples, tile, node, distance);
       continue;
     }
     stack_.push_back(node.right);

@@ -83,6 +83,8 @@ class BlockLighter {
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
+  void lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                     float distance);
   void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, int split);
   void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
   void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,

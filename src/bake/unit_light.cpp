@@ -39,7 +39,7 @@ Emitters emittersOf(const Plan& plan) {
   if (!plan.emittersShine()) return {};
   const float white = irradianceOfWhite(*plan.world.scene);
   return findEmitters(plan.world, plan.charts.charts, plan.settings.faintest * white,
-                      plan.settings.reach);
+                      plan.settings.reach, {.merged = plan.settings.engine != Engine::Octree});
 }
 
 // The same members in the same order, written or read.
