@@ -7,6 +7,7 @@
 #include <map>
 
 #include "bake/light_scenes.hpp"
+#include "bake/polygon_light.hpp"
 #include "scene/builtin/mesh_builder.hpp"
 #include "trace/texture_reader.hpp"
 
@@ -155,6 +156,35 @@ TEST(Emitters, TooManyAreAnErrorThatSaysWhatFits) {
   EXPECT_NE(message.find("2.7"), std::string::npos) << message;
   const Charts coarse = makeCharts(world, {.density = 2.7f});
   EXPECT_TRUE(findEmitters(world, coarse.charts, 0.f, kInfinity, {.most = 1000}).status);
+}
+
+// A triangle whose longest side is aslant to its texels: cells along it are rectangles that are no
+// more than as large as what they stand for.
+TEST(Emitters, WithOutlinesAslantLightAsTheyAre) {
+  for (const float height : {0.25f, 0.5f, 2.f}) {
+    scene::Scene scene;
+    addSurface(scene, vec3(2));
+    const std::array<vec3, 3> corners{vec3(-0.5f, height, -0.5f), vec3(0.5f, height, -0.5f),
+                                      vec3(-0.5f, height, 0.5f)};
+    scene::builtin::MeshBuilder builder;
+    builder.triangle(corners, {});  // faces down
+    addMesh(scene, builder.take("lamp"));
+    addSurface(scene);
+    const auto floor = addRectangle(scene, {0, 0, 0}, {1, 0, 0}, {0, 0, -1});
+    float worst = 0.f;
+    double squares = 0.;
+    const auto texels = texelsOf(lightAll(planOf(scene, {.density = 20.f})), floor);
+    ASSERT_FALSE(texels.empty());
+    for (const LitTexel& t : texels) {
+      const float truth = 2.f * polygonIrradiance(corners, t.positionW, t.normalW);
+      const float off = t.irradiance.x / truth - 1.f;
+      worst = std::max(worst, std::abs(off));
+      squares += double{off} * double{off} / static_cast<double>(texels.size());
+    }
+    SCOPED_TRACE(fmt::format("{} m: {}, {}", height, worst, std::sqrt(squares)));
+    EXPECT_LT(worst, height < 0.3f ? 0.05f : 0.02f);
+    EXPECT_LT(std::sqrt(squares), height < 0.3f ? 0.02 : 0.01);
+  }
 }
 
 // A ball of facets under a ceiling: light may come from within none of them, near or far, or the
