@@ -110,13 +110,13 @@ void BlockLighter::flush() {
 // A cell by a grid of points: they tell what share of it is seen. What all of it gives where
 // nothing is in the way is known.
 void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                               int split) {
-  const int count = split * split;
+                               ivec2 split) {
+  const int count = split.x * split.y;
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
   part.intensity /= static_cast<float>(count);
   const auto pointAt = [&](int i) {
-    const vec2 at = (vec2(i % split, i / split) + 0.5f) / static_cast<float>(split) - 0.5f;
+    const vec2 at = (vec2(i % split.x, i / split.x) + 0.5f) / vec2(split) - 0.5f;
     return middle + u * at.x + v * at.y;
   };
   const float area = glm::length(glm::cross(u, v));
@@ -165,11 +165,15 @@ void BlockLighter::lightByHalves(const Samples& samples, const Tile& tile, const
 // A node, or a cell that is small enough for its distance: one point.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                                float distance) {
-  const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
-  if (node.isCell() && wanted > 1.f)
-    lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
-  else
+  const float most = settings_.emitterSize * std::max(distance, 1e-6f);  // m, of one point's part
+  if (!node.isCell() || node.size <= most) {
     addEmission(samples, tile, node.emission, node.reach, false);
+    return;
+  }
+  // Parts that are about square have sides of most / sqrt(2).
+  const vec2 wanted =
+      vec2(glm::length(node.alongU), glm::length(node.alongV)) * std::sqrt(2.f) / most;
+  lightByCell(samples, tile, node, ivec2(glm::ceil(glm::clamp(wanted, 1.f, kMostSplit))));
 }
 
 // found_: the nodes with one direction that may light the block, for all of its tiles.
