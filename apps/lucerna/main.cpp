@@ -13,6 +13,15 @@
 namespace lucerna::cli {
 namespace {
 
+constexpr const char* kMemory =
+    "out of memory; render smaller (--size, --scale), take a smaller scene, or close other "
+    "programs";
+constexpr const char* kBakeMemory =
+    "out of memory; bake fewer texels (a lower --density), leave out the light of surfaces that "
+    "shine (\"bake\": {\"areaLights\": false} in the scene), or close other programs; --dry-run "
+    "says "
+    "what a bake takes";
+
 // Errors go to stderr; with --json the one document on stdout says it too.
 int fail(const Error& fault, bool json) {
   // A list of faults says of each line itself whether it is an error or a warning.
@@ -74,9 +83,7 @@ int run(int count, char** words) {
                   false);
     return result ? *result : fail(result.error(), line.talk.json);
   } catch (const std::bad_alloc&) {
-    return fail({ErrorKind::Failed,
-                 "out of memory; render smaller (--size, --scale), take a smaller scene, or close "
-                 "other programs"},
+    return fail({ErrorKind::Failed, line.app.got_subcommand("bake") ? kBakeMemory : kMemory},
                 line.talk.json);
   } catch (const std::exception& fault) {  // gpu::OutOfMemory; nothing else throws by design
     return fail({ErrorKind::Failed, fault.what()}, line.talk.json);

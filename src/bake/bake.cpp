@@ -231,6 +231,7 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
 
   const auto start = Clock::now();
   const LightScene scene(plan);
+  LUCERNA_TRY_VOID(scene.emitters.status);
   report.seconds.prepare += secondsSince(start);
   const auto lit = Clock::now();
   std::uint64_t texels = 0;

@@ -11,6 +11,8 @@
 namespace lucerna::bake {
 namespace {
 
+constexpr float kMostSplit = 4.f;  // points along each side of a cell
+
 float distanceBetween(const Aabb& a, const Aabb& b) {
   return glm::length(glm::max(glm::max(a.min - b.max, b.min - a.max), vec3(0.f)));
 }
@@ -101,13 +103,13 @@ void BlockLighter::flush() {
 // A cell by a grid of points: they tell what share of it is seen. What all of it gives where
 // nothing is in the way is known.
 void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                               int split) {
-  const int count = split * split;
+                               ivec2 split) {
+  const int count = split.x * split.y;
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
   part.intensity /= static_cast<float>(count);
   const auto pointAt = [&](int i) {
-    const vec2 at = (vec2(i % split, i / split) + 0.5f) / static_cast<float>(split) - 0.5f;
+    const vec2 at = (vec2(i % split.x, i / split.x) + 0.5f) / vec2(split) - 0.5f;
     return middle + u * at.x + v * at.y;
   };
   const float area = glm::length(glm::cross(u, v));
@@ -138,15 +140,33 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   }
 }
 
+// A cell that is too large for a grid is halved first, down to a texel of its own.
+void BlockLighter::lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                                 float distance) {
+  if (cell.size <= std::max(kMostSplit * settings_.emitterSize * distance, cell.texel)) {
+    lightByNode(samples, tile, cell, distance);
+    return;
+  }
+  for (const float which : {-1.f, 1.f}) {
+    const EmitterNode half = halfOf(cell, which);
+    const float toHalf = distanceBetween(half.boxW, tile.boundsW);
+    if (toHalf < half.reach && mayLight(samples, tile, half))
+      lightByHalves(samples, tile, half, toHalf);
+  }
+}
+
 // A node, or a cell that is small enough for its distance: one point.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                                float distance) {
-  constexpr float kMostSplit = 4.f;  // points along each side of a cell
-  const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
-  if (node.isCell() && wanted > 1.f)
-    lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
-  else
+  const float most = settings_.emitterSize * std::max(distance, 1e-6f);  // m, of one point's part
+  if (!node.isCell() || node.size <= most) {
     addEmission(samples, tile, node.emission, node.reach, false);
+    return;
+  }
+  // Parts that are about square have sides of most / sqrt(2).
+  const vec2 wanted =
+      vec2(glm::length(node.alongU), glm::length(node.alongV)) * std::sqrt(2.f) / most;
+  lightByCell(samples, tile, node, ivec2(glm::ceil(glm::clamp(wanted, 1.f, kMostSplit))));
 }
 
 // found_: the nodes with one direction that may light the block, for all of its tiles.
@@ -187,7 +207,10 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
     const bool isOne = node.isCell() || (node.emission.normalW != vec3(0.f) &&
                                          node.size <= settings_.emitterSize * distance);
     if (isOne) {
-      lightByNode(samples, tile, node, distance);
+      if (node.isCell())
+        lightByHalves(samples, tile, node, distance);
+      else
+        lightByNode(samples, tile, node, distance);
       continue;
     }
     stack_.push_back(node.right);

@@ -47,7 +47,9 @@ class BlockLighter final : public Lighter {
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
                    float distance);
-  void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, int split);
+  void lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                     float distance);
+  void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, ivec2 split);
   void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
   void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,
                    bool corrected);

@@ -2,19 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace lucerna::bake {
 namespace {
 
-bool isBlack(const Image& image, int x, int y) {
-  const int channels = std::min(image.channels(), 3);
+// Of its colour, without alpha.
+std::span<const std::byte> bytesAt(const Image& image, int x, int y) {
   const std::size_t size = bytesPer(image.type());
-  const std::byte* pixel =
-      image.bytes().data() +
-      (static_cast<std::size_t>(y) * image.width() + x) * image.channels() * size;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(channels) * size; ++i)
-    if (pixel[i] != std::byte{0}) return false;
-  return true;
+  const auto channels = static_cast<std::size_t>(image.channels());
+  return image.bytes().subspan(
+      (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) +
+       static_cast<std::size_t>(x)) *
+          channels * size,
+      std::min<std::size_t>(channels, 3) * size);
+}
+
+bool isBlack(const Image& image, int x, int y) {
+  return std::ranges::all_of(bytesAt(image, x, y), [](std::byte b) { return b == std::byte{0}; });
 }
 
 // Linear colour at the centres of the pixels.
@@ -99,6 +104,25 @@ bool EmissionTexture::shines(vec2 minUv, vec2 maxUv) const {
     if (y == last.y) break;
   }
   return false;
+}
+
+bool EmissionTexture::isEven(vec2 minUv, vec2 maxUv) const {
+  constexpr int kMost = 16;  // pixels along a side
+  if (texture_.wrapS != scene::Wrap::Repeat || texture_.wrapT != scene::Wrap::Repeat) return false;
+  if (!(glm::all(glm::lessThan(glm::abs(minUv), vec2(1e5f))) &&
+        glm::all(glm::lessThan(glm::abs(maxUv), vec2(1e5f)))))
+    return false;
+  const Image& image = *texture_.image;
+  const vec2 size(image.width(), image.height());
+  const ivec2 first(glm::floor(minUv * size) - 1.f), last(glm::floor(maxUv * size) + 1.f);
+  if (last.x - first.x > kMost || last.y - first.y > kMost) return false;
+  const auto pixel = [&](int x, int y) {
+    return bytesAt(image, wrapped(x, image.width()), wrapped(y, image.height()));
+  };
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
+      if (!std::ranges::equal(pixel(x, y), pixel(first.x, first.y))) return false;
+  return true;
 }
 
 }  // namespace lucerna::bake

@@ -19,6 +19,9 @@ class EmissionTexture {
   int levels() const { return static_cast<int>(levels_.size()); }
   // False only if it is black wherever bilinear filtering looks within the box.
   bool shines(vec2 minUv, vec2 maxUv) const;
+  // True only if it is of one colour wherever bilinear filtering looks within the box, and the box
+  // has few pixels.
+  bool isEven(vec2 minUv, vec2 maxUv) const;
 
  private:
   static constexpr int kCell = 16;  // pixels

@@ -1,15 +1,14 @@
 #include "bake/emitters.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <limits>
 #include <map>
-#include <memory>
-#include <numeric>
-#include <optional>
+#include <span>
 
 #include "bake/emission_texture.hpp"
 #include "bake/emitting_cells.hpp"
-#include "core/check.hpp"
 #include "core/parallel.hpp"
 
 namespace lucerna::bake {
@@ -29,45 +28,75 @@ std::uint64_t morton(ivec2 p) {
   return code;
 }
 
+// A cell's box and size, by its middle and sides.
+void fitBox(EmitterNode& cell) {
+  const vec3 u = cell.alongU, v = cell.alongV;
+  cell.size = std::max(glm::length(u + v), glm::length(u - v));
+  cell.boxW = {};
+  for (const vec2 side : {vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(1, 1)})
+    cell.boxW.grow(cell.emission.positionW + 0.5f * (side.x * u + side.y * v));
+}
+
+// One side of what shines of a chart.
+struct Emitting {
+  std::vector<Cell> cells;
+  float reach = 0.f, texel = 0.f;  // m, as EmitterNode
+  Aabb boxW{};                     // around the cells
+};
+
+EmitterNode nodeOf(const Cell& cell, const Emitting& chart) {
+  EmitterNode node;
+  node.emission = cell.emission;
+  node.axis = cell.emission.normalW;
+  node.cosine = 1.f;
+  node.reach = chart.reach;
+  node.texel = chart.texel;
+  node.alongU = cell.alongU;
+  node.alongV = cell.alongV;
+  fitBox(node);
+  return node;
+}
+
 class Builder {
  public:
   std::vector<EmitterNode> nodes;
 
-  // A quadtree over the chart's texels, by halves.
-  void addChart(std::vector<Cell>& cells, float reach) {
-    reach_ = reach;
-    std::ranges::sort(cells, {}, [](const Cell& c) { return morton(c.texel); });
-    addRange(cells);
-  }
-  // A tree over trees that stand one behind the other, given by their first nodes.
-  std::vector<EmitterNode> joined(
-      std::vector<std::pair<std::uint32_t, std::uint32_t>> trees) const {
-    std::vector<EmitterNode> result;
-    result.reserve(nodes.size() + trees.size());
-    join(result, trees);
-    return result;
+  // A tree over the charts' trees; takes their cells.
+  void add(std::span<Emitting> charts) {
+    if (charts.size() == 1) {
+      addChart(charts[0]);
+      charts[0].cells = {};
+      return;
+    }
+    Aabb centres;
+    for (const Emitting& chart : charts) centres.grow(chart.boxW.center());
+    const vec3 extent = centres.extent();
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
+    std::ranges::stable_sort(charts, {},
+                             [&](const Emitting& chart) { return chart.boxW.center()[axis]; });
+    const std::size_t at = nodes.size();
+    nodes.emplace_back();
+    add(charts.first(charts.size() / 2));
+    nodes[at].right = static_cast<std::uint32_t>(nodes.size());
+    add(charts.subspan(charts.size() / 2));
+    combine(nodes, at, false);
   }
 
  private:
-  void addRange(std::span<const Cell> cells) {
-    const std::size_t at = nodes.size();
-    nodes.emplace_back();
+  // A quadtree over the chart's squares, by halves.
+  void addChart(Emitting& chart) {
+    std::ranges::stable_sort(chart.cells, {}, [](const Cell& c) { return morton(c.texel); });
+    addRange(chart, chart.cells);
+  }
+  void addRange(const Emitting& chart, std::span<const Cell> cells) {
     if (cells.size() == 1) {
-      const Cell& cell = cells[0];
-      EmitterNode& node = nodes[at];
-      node.emission = cell.emission;
-      node.axis = cell.emission.normalW;
-      node.cosine = 1.f;
-      node.reach = reach_;
-      node.alongU = cell.alongU;
-      node.alongV = cell.alongV;
-      node.size =
-          std::max(glm::length(cell.alongU + cell.alongV), glm::length(cell.alongU - cell.alongV));
-      for (const vec2 side : {vec2(-1, -1), vec2(1, -1), vec2(-1, 1), vec2(1, 1)})
-        node.boxW.grow(cell.emission.positionW +
-                       0.5f * (side.x * cell.alongU + side.y * cell.alongV));
+      nodes.push_back(nodeOf(cells[0], chart));
       return;
     }
+    const std::size_t at = nodes.size();
+    nodes.emplace_back();
     // Where the highest bit changes, which is where a square is halved.
     const std::uint64_t first = morton(cells.front().texel), last = morton(cells.back().texel);
     std::size_t half = cells.size() / 2;
@@ -79,9 +108,9 @@ class Builder {
               cells, [&](const Cell& c) { return (morton(c.texel) & bit) == 0; }) -
           cells.begin());
     }
-    addRange(cells.first(half));
+    addRange(chart, cells.first(half));
     nodes[at].right = static_cast<std::uint32_t>(nodes.size());
-    addRange(cells.subspan(half));
+    addRange(chart, cells.subspan(half));
     combine(nodes, at, true);
   }
 
@@ -110,38 +139,20 @@ class Builder {
       // Some more, for what the arc cosines round.
       node.cosine = angle < 0.5f * kPi ? std::cos(angle) - 1e-5f : -1.f;
     }
-    node.emission.normalW = oneChart && node.cosine >= kCosParallel ? node.axis : vec3(0.f);
+    if (oneChart && node.cosine >= kCosParallel) raise(node, a, b);
   }
 
-  float reach_ = 0.f;  // m, of the chart under way
-
-  // trees: first node and count.
-  void join(std::vector<EmitterNode>& result,
-            std::span<std::pair<std::uint32_t, std::uint32_t>> trees) const {
-    if (trees.empty()) return;
-    if (trees.size() == 1) {
-      const auto offset = static_cast<std::uint32_t>(result.size()) - trees[0].first;
-      for (std::uint32_t i = 0; i < trees[0].second; ++i) {
-        EmitterNode node = nodes[trees[0].first + i];
-        if (!node.isCell()) node.right += offset;
-        result.push_back(node);
-      }
-      return;
+  // Makes a node that is nearly flat one light, which lies on top of its children, as Cell.
+  static void raise(EmitterNode& node, const EmitterNode& a, const EmitterNode& b) {
+    node.emission.normalW = node.axis;
+    float above = 0.f;
+    for (const EmitterNode* child : {&a, &b}) {
+      const float tilt = glm::length(glm::cross(node.axis, child->axis));
+      above = std::max(
+          above, tilt * child->size +
+                     glm::dot(node.axis, child->emission.positionW - node.emission.positionW));
     }
-    Aabb centres;
-    for (const auto& tree : trees) centres.grow(nodes[tree.first].boxW.center());
-    const vec3 extent = centres.extent();
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
-                     : extent.y >= extent.z                       ? 1
-                                                                  : 2;
-    std::ranges::stable_sort(
-        trees, {}, [&](const auto& tree) { return nodes[tree.first].boxW.center()[axis]; });
-    const std::size_t at = result.size();
-    result.emplace_back();
-    join(result, trees.first(trees.size() / 2));
-    result[at].right = static_cast<std::uint32_t>(result.size());
-    join(result, trees.subspan(trees.size() / 2));
-    combine(result, at, false);
+    node.emission.positionW += above * node.axis;
   }
 };
 
@@ -154,18 +165,47 @@ float reachOf(std::span<const Cell> cells, const scene::Scene& scene, float fain
   return std::sqrt(std::max({i.x, i.y, i.z}) / faintest);
 }
 
+const scene::Material& materialOf(const World& world, const Chart& chart) {
+  const scene::Scene& scene = *world.scene;
+  return scene.materials[scene.objects[world.objects[chart.object].object].material];
+}
+
+// The density at which they would fit is that where there are no more texels than cells.
+Error tooMany(const World& world, const std::vector<Chart>& charts,
+              std::span<const std::uint32_t> shining, std::uint64_t most) {
+  double texels = 0.;
+  float density = 0.f;
+  for (const std::uint32_t i : shining) {
+    double twice = 0.;
+    for (const auto& c : charts[i].corners) {
+      const vec2 b = c[1] - c[0], d = c[2] - c[0];
+      twice += std::abs(double{b.x} * double{d.y} - double{b.y} * double{d.x});
+    }
+    texels += (materialOf(world, charts[i]).doubleSided ? 1. : 0.5) * twice;
+    density = std::max(density, charts[i].density);
+  }
+  constexpr double kBorders = 0.7;  // texels that are touched in part count too
+  const double fits =
+      kBorders * static_cast<double>(density) *
+      std::sqrt(static_cast<double>(most) / std::max(texels, static_cast<double>(most)));
+  return error(
+      ErrorKind::Failed,
+      "surfaces that shine would be cut into more than {} cells, of 300 bytes each, at {:g} "
+      "texels a metre; bake at about {:.2g} (--density), or without their light: \"bake\": "
+      "{{\"areaLights\": false}} in the scene",
+      most, density, fits);
+}
+
 }  // namespace
 
 Emitters findEmitters(const World& world, const std::vector<Chart>& charts, float faintest,
-                      float mostReach) {
+                      float mostReach, const CutCells& cut) {
   const scene::Scene& scene = *world.scene;
-  Emitters result;
-  if (!scene.bake.areaLights) return result;
+  if (!scene.bake.areaLights) return {};
   std::map<std::uint32_t, EmissionTexture> textures;
   std::vector<std::uint32_t> shining;  // charts
   for (std::uint32_t i = 0; i < charts.size(); ++i) {
-    const WorldObject& object = world.objects[charts[i].object];
-    const scene::Material& material = scene.materials[scene.objects[object.object].material];
+    const scene::Material& material = materialOf(world, charts[i]);
     if (material.emissive == vec3(0.f)) continue;
     shining.push_back(i);
     const scene::TextureSlot& slot = material.emissiveTexture;
@@ -173,27 +213,49 @@ Emitters findEmitters(const World& world, const std::vector<Chart>& charts, floa
       textures.try_emplace(slot.texture, scene.textures[slot.texture]);
   }
   std::vector<std::vector<Cell>> cells(shining.size());
+  std::atomic<std::uint64_t> made = 0;
   parallelFor(shining.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      cells[i] = cellsOf(world, charts[shining[i]], textures);
+      cells[i] = cellsOf(world, charts[shining[i]], textures, cut, made);
   });
-  Builder builder;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> trees;
-  const auto addTree = [&](std::vector<Cell> list) {
-    if (list.empty()) return;
-    result.cells += list.size();
-    const auto first = static_cast<std::uint32_t>(builder.nodes.size());
-    builder.addChart(list, std::min(reachOf(list, scene, faintest), mostReach));
-    trees.emplace_back(first, static_cast<std::uint32_t>(builder.nodes.size()) - first);
-  };
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const WorldObject& object = world.objects[charts[shining[i]].object];
-    if (scene.materials[scene.objects[object.object].material].doubleSided)
-      addTree(backsOf(cells[i]));
-    addTree(std::move(cells[i]));
+  Emitters result;
+  if (made > cut.most) {
+    result.status = tooMany(world, charts, shining, cut.most);
+    return result;
   }
-  result.nodes = builder.joined(std::move(trees));
+  std::vector<Emitting> sides;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].empty()) continue;
+    const Chart& chart = charts[shining[i]];
+    Emitting side{.cells = std::move(cells[i]),
+                  .reach = 0.f,
+                  .texel = std::sqrt(2.f) / std::max(chart.density, 1e-6f)};
+    side.reach = std::min(reachOf(side.cells, scene, faintest), mostReach);
+    for (const Cell& cell : side.cells) side.boxW.grow(nodeOf(cell, side).boxW);
+    result.cells += side.cells.size();
+    sides.push_back(std::move(side));
+    if (!materialOf(world, chart).doubleSided) continue;
+    Emitting back = sides.back();
+    back.cells = backsOf(std::move(back.cells));
+    result.cells += back.cells.size();
+    sides.push_back(std::move(back));
+  }
+  if (sides.empty()) return result;
+  Builder builder;
+  builder.nodes.reserve(2 * result.cells - 1);
+  builder.add(sides);
+  result.nodes = std::move(builder.nodes);
   return result;
+}
+
+EmitterNode halfOf(const EmitterNode& cell, float which) {
+  EmitterNode half = cell;
+  vec3& longer = glm::length(cell.alongU) >= glm::length(cell.alongV) ? half.alongU : half.alongV;
+  half.emission.positionW += 0.25f * which * longer;
+  half.emission.intensity *= 0.5f;
+  longer *= 0.5f;
+  fitBox(half);
+  return half;
 }
 
 scene::PlacedLight lightOf(const Emission& emission, const scene::Scene& scene, float reach) {

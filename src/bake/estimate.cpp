@@ -136,6 +136,7 @@ Result<Estimate> estimate(const Plan& plan, double seconds) {
   const std::uint64_t planned = residentBytes();
   const auto start = Clock::now();
   const LightScene scene(plan);
+  LUCERNA_TRY_VOID(scene.emitters.status);
   result.emitterCells = scene.emitters.cells;
   result.prepareSeconds = secondsSince(start);
   const std::vector<Measured> found = measure(plan, scene, seconds);

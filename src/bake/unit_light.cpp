@@ -46,11 +46,11 @@ std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) 
   CHECK(false);
 }
 
-Emitters emittersOf(const Plan& plan) {
+Emitters emittersOf(const Plan& plan, Engine engine) {
   if (!plan.emittersShine()) return {};
   const float white = irradianceOfWhite(*plan.world.scene);
   return findEmitters(plan.world, plan.charts.charts, plan.settings.faintest * white,
-                      plan.settings.reach);
+                      plan.settings.reach, {.merged = engine != Engine::Octree});
 }
 
 // The same members in the same order, written or read.
@@ -102,7 +102,7 @@ LightScene::LightScene(const Plan& plan, Engine engineOf)
     : engine(engineOf),
       tracer(makeTracer(plan, engineOf)),
       occluders(plan.world),
-      emitters(emittersOf(plan)),
+      emitters(emittersOf(plan, engine)),
       rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
       chartOf(chartsOfTriangles(plan)),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {
