@@ -30,6 +30,20 @@ std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach) 
   return groups;
 }
 
+scene::Bvh reachTree(std::span<const scene::PlacedLight> lights) {
+  std::vector<Aabb> boxes;
+  for (const scene::PlacedLight& light : lights) {
+    // Distances count from the light's surface. Directional lights reach everywhere.
+    const vec3 reach(light.kind == scene::LightKind::Directional
+                         ? std::numeric_limits<float>::infinity()
+                         : light.reach + light.radius);
+    boxes.push_back({light.positionW - reach, light.positionW + reach});
+  }
+  scene::Bvh tree;
+  tree.build(boxes);
+  return tree;
+}
+
 std::vector<scene::PlacedLight> skyLights(vec3 radiance, int directions) {
   std::vector<scene::PlacedLight> lights;
   if (radiance == vec3(0.f)) return lights;

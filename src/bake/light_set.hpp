@@ -1,9 +1,11 @@
 // The lights of a bake, by the groups that switch together.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
+#include "scene/bvh.hpp"
 #include "scene/scene.hpp"
 
 namespace lucerna::bake {
@@ -20,6 +22,10 @@ struct LightGroup {
 // even where the scene has switched them off: groups are for switching. The headlight, which goes
 // with the camera, does not. mostReach: m; no light reaches farther.
 std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach);
+
+// The boxes that the lights' light stays in, as a tree: what it finds for a box are all lights that
+// may reach it, and few others.
+scene::Bvh reachTree(std::span<const scene::PlacedLight> lights);
 
 // A sky of one radiance, as directional lights that are spread evenly over all directions. They are
 // none of the scene's: their PlacedLight::light is kNone.

@@ -106,11 +106,15 @@ LightScene::LightScene(const Plan& plan, Engine engineOf)
       rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
       chartOf(chartsOfTriangles(plan)),
       diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {
-  if (engine == Engine::Octree) cells = cellLights(emitters, *plan.world.scene);
+  if (engine == Engine::Octree)
+    cells = cellLights(emitters, *plan.world.scene);
+  else
+    for (const LightGroup& group : plan.groups) reaches.push_back(reachTree(group.lights));
 }
 
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
+      scene_(scene),
       lighter_(makeLighter(plan, scene)),
       hidden_(scene.rays, scene.occluders, scene.chartOf) {}
 
@@ -130,10 +134,25 @@ const Samples& UnitLighter::sample(const Block& block) {
   return samples_;
 }
 
-void UnitLighter::lightGroup(std::uint32_t group, std::span<vec3> texels) {
+// Those of the group's lights that may reach the samples, in the group's order.
+std::span<const scene::PlacedLight> UnitLighter::lightsNear(std::uint32_t group) {
+  const std::vector<scene::PlacedLight>& all = plan_.groups[group].lights;
+  if (scene_.reaches.empty()) return all;
+  found_.clear();
+  near_.clear();
+  scene_.reaches[group].query(samples_.boundsW, found_);
+  std::ranges::sort(found_);
+  for (const std::uint32_t i : found_) near_.push_back(all[i]);
+  return near_;
+}
+
+bool UnitLighter::lightGroup(std::uint32_t group, std::span<vec3> texels) {
   std::ranges::fill(texels, vec3(0.f));
-  addLight(plan_.groups[group].lights, false, texels);
-  if (group == 0) addLight({}, true, texels);
+  const auto lights = lightsNear(group);
+  const bool shines = group == 0;  // emitting surfaces are always on
+  if (!lights.empty()) addLight(lights, false, texels);
+  if (shines) addLight({}, true, texels);
+  return shines || !lights.empty();
 }
 
 // Texels that shadows' edges cross are lit once more, from more places.
@@ -167,8 +186,9 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
     result.touched[texel / 8] |= static_cast<std::uint8_t>(1u << (texel % 8));
   for (std::uint32_t g = 0; g < plan_.groups.size(); ++g) {
     texels_.resize(count);
-    lightGroup(g, texels_);
-    if (std::ranges::all_of(texels_, [](vec3 v) { return v == vec3(0.f); })) continue;
+    if (!lightGroup(g, texels_) ||
+        std::ranges::all_of(texels_, [](vec3 v) { return v == vec3(0.f); }))
+      continue;
     GroupLight& group = result.groups.emplace_back(GroupLight{.group = g, .rgb = {}});
     for (std::size_t i = 0; i < count; ++i)
       if (result.touched[i / 8] >> (i % 8) & 1)

@@ -44,6 +44,7 @@ struct LightScene {
   Occluders occluders;
   Emitters emitters;
   std::vector<scene::PlacedLight> cells;  // of the emitters, as lights; of the octree only
+  std::vector<scene::Bvh> reaches;  // of each group's lights; none for the octree, which asks all
   trace::RayScene rays;
   std::vector<std::uint32_t> chartOf;  // of each triangle
   float diagonal = 0.f;                // m
@@ -54,19 +55,24 @@ class UnitLighter {
  public:
   UnitLighter(const Plan& plan, const LightScene& scene);
   UnitLight light(const Unit& unit);
-  // A block's samples, and then a group's light on its texels, row by row.
+  // A block's samples, and then a group's light on its texels, row by row; false: nothing of it
+  // reaches them.
   const Samples& sample(const Block& block);
-  void lightGroup(std::uint32_t group, std::span<vec3> texels);
+  bool lightGroup(std::uint32_t group, std::span<vec3> texels);
   const LightCounters& counters() const { return lighter_->counters; }
   double samplingSeconds = 0.;
 
  private:
   BlockLight lightBlock(const Block& block);
+  std::span<const scene::PlacedLight> lightsNear(std::uint32_t group);
   void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
   void refine(std::span<const scene::PlacedLight> lights, bool emitters,
               const std::vector<bool>& which);
 
   const Plan& plan_;
+  const LightScene& scene_;
+  std::vector<std::uint32_t> found_;
+  std::vector<scene::PlacedLight> near_;  // of the group that is lit
   std::unique_ptr<Lighter> lighter_;
   HiddenSamples hidden_;
   std::optional<ChartSampler> sampler_, fineSampler_;
