@@ -35,7 +35,8 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
 std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
   const LighterSettings settings{.lightSamples = plan.settings.sampling.lightSamples,
                                  .emitterSize = plan.settings.sampling.emitterSize,
-                                 .sceneDiagonal = scene.diagonal};
+                                 .sceneDiagonal = scene.diagonal,
+                                 .sceneBoxW = scene.boxW};
   switch (scene.engine) {
     case Engine::Embree:
       return std::make_unique<BlockLighter>(*scene.tracer, scene.occluders, scene.emitters,
@@ -105,7 +106,8 @@ LightScene::LightScene(const Plan& plan, Engine engineOf)
       emitters(emittersOf(plan)),
       rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
       chartOf(chartsOfTriangles(plan)),
-      diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {
+      boxW(boundsOf(plan.world)),
+      diagonal(std::max(boxW.diagonal(), 1e-3f)) {
   if (engine == Engine::Octree) cells = cellLights(emitters, *plan.world.scene);
 }
 

@@ -46,7 +46,8 @@ struct LightScene {
   std::vector<scene::PlacedLight> cells;  // of the emitters, as lights; of the octree only
   trace::RayScene rays;
   std::vector<std::uint32_t> chartOf;  // of each triangle
-  float diagonal = 0.f;                // m
+  Aabb boxW;                           // of all triangles
+  float diagonal = 0.f;                // m, of the box
 };
 
 // One thread's way through the units.
