@@ -75,9 +75,9 @@ void removeWhere(Samples& s, const std::vector<bool>& gone) {
 
 }  // namespace
 
-HiddenSamples::HiddenSamples(const trace::RayScene& rays, const Occluders& occluders,
-                             const std::vector<std::uint32_t>& chartOf)
-    : rays_(rays), occluders_(occluders), chartOf_(chartOf) {}
+HiddenSamples::HiddenSamples(const Plan& plan, const trace::RayScene& rays,
+                             const Occluders& occluders, const SurfaceParts& parts)
+    : plan_(plan), rays_(rays), occluders_(occluders), parts_(parts) {}
 
 // Sets hidden_ of these samples. Direction after direction, so that the rays of a packet go
 // together, and of those that are not sure yet.
@@ -138,55 +138,72 @@ void HiddenSamples::separate(const Samples& samples, const Tile& tile) {
     if (shares_[k] == vec3(0.f)) hidden_[which_[k]] = true;
 }
 
-void HiddenSamples::remove(Samples& samples, std::uint32_t chart) {
-  if (samples.size() == 0) return;
-  hidden_.assign(samples.size(), false);
-  const auto isCrossed = [&](const Tile& tile) {
-    return occluders_.anyIn(slabAround(samples, tile, around(tile, samples.texelSize)),
-                            [&](std::uint32_t triangle) {
-                              // Of a planar block's own triangles the slab is clear.
-                              return samples.planar || chartOf_[triangle] != chart;
-                            });
+// Of the tile's triangles the parts and, of a mesh's own chart, the places of their corners.
+void HiddenSamples::findSurface(const Samples& samples, const Chart& chart, const Tile& tile) {
+  const auto sort = [](std::vector<std::uint32_t>& list) {
+    std::ranges::sort(list);
+    const auto again = std::ranges::unique(list);
+    list.erase(again.begin(), again.end());
   };
-  // Where nothing crosses the surface, all samples are as the first is.
-  crossed_.clear();
-  which_.clear();
-  const Tile all{
-      .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
-  const bool anyCrossed = isCrossed(all);
-  if (!anyCrossed) which_.push_back(0);
-  if (anyCrossed)
-    for (const Tile& tile : samples.tiles) {
-      const bool crossed = isCrossed(tile);
-      if (crossed) crossed_.push_back(tile);
-      for (std::uint32_t i = 0; i < (crossed ? tile.count : 1); ++i)
-        which_.push_back(tile.first + i);
-    }
-  ask(samples, which_);
-  const auto spread = [&](const Tile& tile) {
-    if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
-  };
-  if (!anyCrossed) spread(all);
-  std::size_t next = 0;  // of crossed_
-  if (anyCrossed)
-    for (const Tile& tile : samples.tiles) {
-      const bool crossed = next < crossed_.size() && crossed_[next].first == tile.first;
-      if (crossed)
-        separate(samples, crossed_[next++]);
-      else
-        spread(tile);
-    }
-  if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
+  partsBelow_.clear();
+  placesBelow_.clear();
+  if (samples.planar) return;
+  const std::uint32_t first = plan_.world.objects[chart.object].firstTriangle;
+  std::uint32_t last = scene::kNone;
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+    const std::uint32_t triangle = first + chart.triangles[samples.triangles[i]];
+    if (triangle == last) continue;
+    last = triangle;
+    partsBelow_.push_back(parts_.of[triangle]);
+    if (!chart.own) break;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      placesBelow_.push_back(parts_.places[plan_.world.indices[3 * triangle + k]]);
+  }
+  sort(partsBelow_);
+  sort(placesBelow_);
 }
 
-std::vector<std::uint32_t> chartsOfTriangles(const Plan& plan) {
-  std::vector<std::uint32_t> charts(plan.world.triangleCount(), scene::kNone);
-  for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i) {
-    const Chart& chart = plan.charts.charts[i];
-    const std::uint32_t first = plan.world.objects[chart.object].firstTriangle;
-    for (const std::uint32_t triangle : chart.triangles) charts[first + triangle] = i;
+// Whether anything crosses the surface below the tile: nothing that it is a part of or meets at a
+// corner. Of a planar block's own triangles the slab is clear.
+bool HiddenSamples::isCrossed(const Samples& samples, const Chart& chart, const Tile& tile) {
+  findSurface(samples, chart, tile);
+  const auto isBelow = [](const std::vector<std::uint32_t>& list, std::uint32_t number) {
+    return std::ranges::binary_search(list, number);
+  };
+  return occluders_.anyIn(
+      slabAround(samples, tile, around(tile, samples.texelSize)), [&](std::uint32_t triangle) {
+        if (samples.planar) return true;
+        if (isBelow(partsBelow_, parts_.of[triangle])) return false;
+        const std::uint32_t* corners = &plan_.world.indices[3 * std::size_t{triangle}];
+        return placesBelow_.empty() || std::none_of(corners, corners + 3, [&](std::uint32_t k) {
+                 return isBelow(placesBelow_, parts_.places[k]);
+               });
+      });
+}
+
+void HiddenSamples::remove(Samples& samples, std::uint32_t index) {
+  if (samples.size() == 0) return;
+  const Chart& chart = plan_.charts.charts[index];
+  hidden_.assign(samples.size(), false);
+  crossed_.clear();
+  alike_.clear();
+  which_.clear();
+  // Where nothing crosses one surface, all samples are as the first is.
+  const Tile all{
+      .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
+  const bool anyCrossed = isCrossed(samples, chart, all) || partsBelow_.size() > 1;
+  for (const Tile& tile : anyCrossed ? std::span<const Tile>(samples.tiles) : std::span(&all, 1)) {
+    const bool crossed = anyCrossed && isCrossed(samples, chart, tile);
+    const bool alike = !crossed && partsBelow_.size() <= 1;
+    if (crossed) crossed_.push_back(tile);
+    if (alike) alike_.push_back(tile);
+    for (std::uint32_t i = 0; i < (alike ? 1 : tile.count); ++i) which_.push_back(tile.first + i);
   }
-  return charts;
+  ask(samples, which_);
+  for (const Tile& tile : alike_)
+    if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
+  for (const Tile& tile : crossed_) separate(samples, tile);
+  if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
 }
 
 }  // namespace lucerna::bake

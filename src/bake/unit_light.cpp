@@ -105,7 +105,7 @@ LightScene::LightScene(const Plan& plan, Engine engineOf)
       occluders(plan.world),
       emitters(emittersOf(plan)),
       rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
-      chartOf(chartsOfTriangles(plan)),
+      parts(surfaceParts(plan)),
       boxW(boundsOf(plan.world)),
       diagonal(std::max(boxW.diagonal(), 1e-3f)) {
   if (engine == Engine::Octree) cells = cellLights(emitters, *plan.world.scene);
@@ -114,7 +114,7 @@ LightScene::LightScene(const Plan& plan, Engine engineOf)
 UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
       lighter_(makeLighter(plan, scene)),
-      hidden_(scene.rays, scene.occluders, scene.chartOf) {}
+      hidden_(plan, scene.rays, scene.occluders, scene.parts) {}
 
 const Samples& UnitLighter::sample(const Block& block) {
   const auto start = Clock::now();

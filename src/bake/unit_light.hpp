@@ -45,9 +45,9 @@ struct LightScene {
   Emitters emitters;
   std::vector<scene::PlacedLight> cells;  // of the emitters, as lights; of the octree only
   trace::RayScene rays;
-  std::vector<std::uint32_t> chartOf;  // of each triangle
-  Aabb boxW;                           // of all triangles
-  float diagonal = 0.f;                // m, of the box
+  SurfaceParts parts;
+  Aabb boxW;             // of all triangles
+  float diagonal = 0.f;  // m, of the box
 };
 
 // One thread's way through the units.
