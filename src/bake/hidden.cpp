@@ -16,22 +16,31 @@ using Directions = std::array<vec3, kRays>;
 // Of them that tell of a solid around: one may slip through an edge, or out of what is open.
 constexpr std::size_t kEnough = 4;
 
-// Around +z, none of them along it or along an axis of the scene's, where rays meet edges.
-Directions directionsAroundZ() {
-  Directions directions{vec3(0.05f, 0.03f, 1.f)};
+// Around +z, `along` times as far along it as off it. None of them leads along it or along an axis
+// of the scene's, where rays meet edges.
+Directions directionsAroundZ(float along) {
+  Directions directions{glm::normalize(vec3(0.05f, 0.03f, 1.f))};
   for (std::size_t i = 1; i < kRays; ++i) {
     const float angle = 0.3f + 0.5f * kPi * static_cast<float>(i - 1);
-    directions[i] = {std::cos(angle), std::sin(angle), 0.9f};
+    directions[i] = glm::normalize(vec3(std::cos(angle), std::sin(angle), along));
   }
   return directions;
 }
+const Directions kWide = directionsAroundZ(0.9f), kNarrow = directionsAroundZ(2.f);
 
-// Those that lead up the most come first, as they meet the least.
-Directions directionsAround(vec3 normal) {
-  static const Directions aroundZ = directionsAroundZ();
-  const trace::Frame frame(normal);
-  Directions directions;
-  for (std::size_t i = 0; i < kRays; ++i) directions[i] = glm::normalize(frame.toWorld(aroundZ[i]));
+Directions around(vec3 axis, Directions directions) {
+  const trace::Frame frame(axis);
+  for (vec3& direction : directions) direction = frame.toWorld(direction);
+  return directions;
+}
+
+// All of them lead up unless the surface faces down a good deal: below many a solid lies the front
+// of an open sheet, a floor, that it stands on or in. Those that lead up the most come first, as
+// they meet the least.
+Directions directionsFrom(vec3 normal) {
+  const bool wide = normal.y > 0.75f || normal.y < -0.5f;
+  Directions directions =
+      wide ? around(normal, kWide) : around(glm::normalize(normal + vec3(0.f, 1.f, 0.f)), kNarrow);
   std::ranges::stable_sort(directions, std::ranges::greater{}, &vec3::y);
   return directions;
 }
@@ -41,7 +50,7 @@ vec3 positionAt(const Samples& s, std::size_t i) {
 }
 
 // A thin box around the tile's samples: what crosses it may cover some of them.
-Aabb around(const Tile& tile, float texel) {
+Aabb boxAround(const Tile& tile, float texel) {
   // Half a texel to each side, as a texel reaches beyond its sample.
   return {tile.boundsW.min - 0.71f * texel, tile.boundsW.max + 0.71f * texel};
 }
@@ -84,10 +93,10 @@ HiddenSamples::HiddenSamples(const Plan& plan, const trace::RayScene& rays,
 void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> which) {
   open_.clear();
   directions_.clear();
-  if (samples.planar) directions_.push_back(directionsAround(samples.axis));
+  if (samples.planar) directions_.push_back(directionsFrom(samples.axis));
   for (const std::uint32_t i : which) {
     if (!samples.planar)
-      directions_.push_back(directionsAround({samples.nx[i], samples.ny[i], samples.nz[i]}));
+      directions_.push_back(directionsFrom({samples.nx[i], samples.ny[i], samples.nz[i]}));
     open_.push_back({.sample = i, .directions = directions_.size() - 1});
   }
   for (std::size_t round = 0; round < kRays && !open_.empty(); ++round) {
@@ -171,7 +180,7 @@ bool HiddenSamples::isCrossed(const Samples& samples, const Chart& chart, const 
     return std::ranges::binary_search(list, number);
   };
   return occluders_.anyIn(
-      slabAround(samples, tile, around(tile, samples.texelSize)), [&](std::uint32_t triangle) {
+      slabAround(samples, tile, boxAround(tile, samples.texelSize)), [&](std::uint32_t triangle) {
         if (samples.planar) return true;
         if (isBelow(partsBelow_, parts_.of[triangle])) return false;
         const std::uint32_t* corners = &plan_.world.indices[3 * std::size_t{triangle}];
@@ -204,6 +213,26 @@ void HiddenSamples::remove(Samples& samples, std::uint32_t index) {
     if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
   for (const Tile& tile : crossed_) separate(samples, tile);
   if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
+}
+
+std::vector<bool> insideSolids(const trace::RayScene& rays, std::span<const vec3> placesW) {
+  std::vector<bool> inside(placesW.size(), true);
+  std::vector<trace::Ray> asked;
+  std::vector<int> counts;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.f, 1.f}) {
+      vec3 n(0.f);
+      n[axis] = side;
+      asked.clear();
+      for (const vec3 place : placesW)
+        for (const vec3 direction : around(n, kWide))
+          asked.push_back({.originW = place, .directionW = direction});
+      counts.resize(asked.size());
+      rays.solidsAround(asked, counts);
+      for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i] <= 0) inside[i / kRays] = false;
+    }
+  return inside;
 }
 
 }  // namespace lucerna::bake

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "bake/occluders.hpp"
@@ -52,4 +53,8 @@ class HiddenSamples {
   std::vector<int> counts_;
   std::vector<vec3> shares_;
 };
+// Of places that are on no surface, whether they are inside of a solid, by the same count: of rays
+// around each axis of the scene all have to say so, as what is open to one side is none.
+std::vector<bool> insideSolids(const trace::RayScene& rays, std::span<const vec3> placesW);
+
 }  // namespace lucerna::bake

@@ -241,6 +241,23 @@ TEST_P(Leaks, BoxesThatIntersectHaveNoDarkEdges) {
   EXPECT_GT(darkestSeen(bake(s, GetParam()), boxes), 0.99f);
 }
 
+// A wall that goes into a box, both through an open sheet of floor, lit straight from the side. The
+// front of the floor is below what is inside of the box.
+TEST_P(Leaks, AWallThatEndsInABoxOnASheetHasNoDarkEdge) {
+  scene::Scene s = scene();
+  addSquare(s, {0, 0, 0}, {0, 0, 5}, {5, 0, 0});
+  const Box box{{-1.07f, -0.3f, -1.1f}, {0.93f, 2.04f, 0.87f}};
+  addBox(s, box.low, box.high);
+  addBox(s, {0.1f, -0.4f, -0.3f}, {3.3f, 1.37f, 0.2f});
+  addLight(s, scene::LightKind::Directional, {0, 0, 9}, {0, 0, -1}).intensity = kPi;
+  float darkest = 1e9f;
+  for (const Shown& p : bake(s, GetParam()))
+    if (p.normalW.z > 0.9f && p.positionW.y > 0.f && p.positionW.x > 1e-3f + box.high.x)
+      darkest = std::min(darkest, p.least);
+  EXPECT_GT(darkest, 0.99f);
+  EXPECT_LT(darkest, 1.01f);
+}
+
 // All squares of the scene as one mesh. own: with a second set of coordinates, in which the first
 // square has the left and the others, one above the other, the right.
 void makeOneMesh(scene::Scene& scene, bool own) {
