@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "bake/light_points.hpp"
 #include "bake/light_scenes.hpp"
 #include "bake/shadow_tracer.hpp"
 
@@ -15,8 +16,9 @@ using scene::LightKind;
 const vec3 kAlong = glm::normalize(vec3(0.3f, -1.f, 0.2f));  // of the sun
 constexpr float kHeight = 0.05f;                             // m, of the sheet
 
-// A floor with a thin sheet over its middle, in the sun; and the ground below, which takes no
-// light, as far as `reach` m. The floor is the first object.
+// A floor with a thin sheet over its middle, in the sun; and what takes no light: the ground below,
+// as far as `reach` m, and a post at its end, away from the sun, which is as high. The floor is the
+// first object.
 scene::Scene floorWithSheet(float reach, bool sun) {
   scene::Scene scene = trace::testing::emptyScene();
   addSurface(scene);
@@ -26,6 +28,7 @@ scene::Scene floorWithSheet(float reach, bool sun) {
   if (reach <= 0.f) return scene;
   addSurface(scene).model = scene::MaterialModel::Unlit;
   addRectangle(scene, vec3(0, -0.01f, 0), vec3(0, 0, reach), vec3(reach, 0, 0));
+  addRectangle(scene, vec3(reach, 0.5f * reach, reach), vec3(1, 0, 0), vec3(0, 0.5f * reach, 0));
   return scene;
 }
 
@@ -74,6 +77,20 @@ TEST_P(FarGround, TheSkyKeepsItsContactShadows) {
     }
     EXPECT_GT(dark, 40u);
   }
+}
+
+TEST(WayOut, LeavesTheBox) {
+  const Aabb box{vec3(-4, 0, -2), vec3(4, 3, 2)};
+  const vec3 up(0, 1, 0), across = glm::normalize(vec3(1, 0, 1));
+  EXPECT_NEAR(wayOut(box, vec3(1, 1, 1), up), 2.f, 0.1f);
+  EXPECT_GT(wayOut(box, vec3(1, 1, 1), up), 2.f * (1.f + kClearOfLight));
+  EXPECT_NEAR(wayOut(box, vec3(0, 1, 0), -across), 2.f * std::sqrt(2.f), 0.1f);
+  // On its border and just beyond it: not nothing, so that the ray has a direction.
+  for (const float y : {3.f, 3.001f}) {
+    EXPECT_GT(wayOut(box, vec3(0, y, 0), up), 0.1f);
+    EXPECT_LT(wayOut(box, vec3(0, y, 0), up), 0.3f);
+  }
+  EXPECT_GT(wayOut({vec3(0), vec3(0)}, vec3(0), up), 1e-3f);
 }
 
 // Of samples near the origin and of those far away.
