@@ -109,8 +109,7 @@ Json describe(const bake::Preflight& found) {
           {"unlit", found.unlit},
           {"moving", found.moving},
           {"bending", found.bending},
-          {"lights_inside", found.buried},
-          {"lights_not_asked", found.notAsked}};
+          {"lights_inside", found.buried}};
 }
 
 Json describe(const bake::Estimate& e) {

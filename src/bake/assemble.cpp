@@ -145,15 +145,16 @@ void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const Unit
       for (int x = 0; x < block.size.x; ++x) {
         const auto index = static_cast<std::size_t>(y * block.size.x + x);
         const ivec2 texel = block.corner + ivec2(x, y);
-        const bool touched = blockLight.touched[index / 8] >> (index % 8) & 1;
+        const bool touched = hasBit(blockLight.touched, index);
         if (!isOf(plan, block.chart, texel)) {
           if (touched) at += 3;
           continue;
         }
         const ivec2 p = placed(plan, block.chart, texel);
-        auto& texels = touched ? baked.texels.touched : baked.texels.hidden;
-        texels[static_cast<std::size_t>(map)]
-              [static_cast<std::size_t>(p.y) * baked.texels.side + p.x] = true;
+        const std::size_t place = static_cast<std::size_t>(p.y) * baked.texels.side + p.x;
+        baked.texels.touched[static_cast<std::size_t>(map)][place] = touched;
+        baked.texels.hidden[static_cast<std::size_t>(map)][place] =
+            hasBit(blockLight.hidden, index);
         if (!touched) continue;
         for (const GroupLight& group : blockLight.groups) {
           const Rgb rgb{group.rgb[at], group.rgb[at + 1], group.rgb[at + 2]};

@@ -13,7 +13,7 @@ namespace lucerna::bake {
 struct MapTexels {
   int side = 0;
   std::vector<std::vector<bool>> touched;  // of each map, row by row
-  std::vector<std::vector<bool>> hidden;   // those of charts that are inside of solids
+  std::vector<std::vector<bool>> hidden;   // of charts, inside of solids: not touched
 
   bool has(int map, ivec2 p) const {
     return p.x >= 0 && p.y >= 0 && p.x < side && p.y < side &&

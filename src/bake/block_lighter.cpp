@@ -127,7 +127,7 @@ void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
   for (std::size_t i = first; i < lit_.size(); ++i) {
     const std::size_t at = lit_[i];
     const vec3 to(s.x[at], s.y[at], s.z[at]);
-    const vec3 from = startOf(p, to, settings_.sceneDiagonal);
+    const vec3 from = startOf(p, to, settings_.sceneBoxW);
     rays_.fromX[i] = from.x;
     rays_.fromY[i] = from.y;
     rays_.fromZ[i] = from.z;

@@ -132,6 +132,7 @@ bool addOwn(Charts& result, const World& world, std::uint32_t index,
             const ChartSettings& settings) {
   std::variant<Chart, std::string> own = ownUnwrap(world, index, settings);
   if (Chart* chart = std::get_if<Chart>(&own)) {
+    chart->own = true;
     result.charts.push_back(std::move(*chart));
     ++result.own;
     return true;

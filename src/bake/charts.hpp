@@ -31,6 +31,7 @@ struct Chart {
   std::vector<std::array<vec2, 3>> corners{};  // of each, as its mesh orders them; texels
   ivec2 size{1};                               // texels, around all corners
   float density = 0.f;                         // texels a metre
+  bool own = false;  // lies by its mesh's own coordinates: need not be one smooth surface
 };
 
 struct Charts {

@@ -69,7 +69,6 @@ void takeLight(const RTCFilterFunctionNArguments* args) {
 struct Packet {
   Packet() {
     for (unsigned i = 0; i < kPacket; ++i) {
-      rays.tnear[i] = kClearOfSample;
       rays.time[i] = 0.f;
       rays.mask[i] = ~0u;
       rays.id[i] = i;
@@ -98,6 +97,9 @@ struct Packet {
   }
   // Lanes of [begin, end) take part.
   void start(std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < kPacket; ++i)
+      rays.tnear[i] = clearOfSample({rays.org_x[i], rays.org_y[i], rays.org_z[i]},
+                                    {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]});
     for (std::size_t i = 0; i < kPacket; ++i) rays.tfar[i] = 1.f - kClearOfLight;
     for (std::size_t i = 0; i < kPacket; ++i) valid[i] = i >= begin && i < end ? -1 : 0;
   }

@@ -16,22 +16,31 @@ using Directions = std::array<vec3, kRays>;
 // Of them that tell of a solid around: one may slip through an edge, or out of what is open.
 constexpr std::size_t kEnough = 4;
 
-// Around +z, none of them along it or along an axis of the scene's, where rays meet edges.
-Directions directionsAroundZ() {
-  Directions directions{vec3(0.05f, 0.03f, 1.f)};
+// Around +z, `along` times as far along it as off it. None of them leads along it or along an axis
+// of the scene's, where rays meet edges.
+Directions directionsAroundZ(float along) {
+  Directions directions{glm::normalize(vec3(0.05f, 0.03f, 1.f))};
   for (std::size_t i = 1; i < kRays; ++i) {
     const float angle = 0.3f + 0.5f * kPi * static_cast<float>(i - 1);
-    directions[i] = {std::cos(angle), std::sin(angle), 0.9f};
+    directions[i] = glm::normalize(vec3(std::cos(angle), std::sin(angle), along));
   }
   return directions;
 }
+const Directions kWide = directionsAroundZ(0.9f), kNarrow = directionsAroundZ(2.f);
 
-// Those that lead up the most come first, as they meet the least.
-Directions directionsAround(vec3 normal) {
-  static const Directions aroundZ = directionsAroundZ();
-  const trace::Frame frame(normal);
-  Directions directions;
-  for (std::size_t i = 0; i < kRays; ++i) directions[i] = glm::normalize(frame.toWorld(aroundZ[i]));
+Directions around(vec3 axis, Directions directions) {
+  const trace::Frame frame(axis);
+  for (vec3& direction : directions) direction = frame.toWorld(direction);
+  return directions;
+}
+
+// All of them lead up unless the surface faces down a good deal: below many a solid lies the front
+// of an open sheet, a floor, that it stands on or in. Those that lead up the most come first, as
+// they meet the least.
+Directions directionsFrom(vec3 normal) {
+  const bool wide = normal.y > 0.75f || normal.y < -0.5f;
+  Directions directions =
+      wide ? around(normal, kWide) : around(glm::normalize(normal + vec3(0.f, 1.f, 0.f)), kNarrow);
   std::ranges::stable_sort(directions, std::ranges::greater{}, &vec3::y);
   return directions;
 }
@@ -41,7 +50,7 @@ vec3 positionAt(const Samples& s, std::size_t i) {
 }
 
 // A thin box around the tile's samples: what crosses it may cover some of them.
-Aabb around(const Tile& tile, float texel) {
+Aabb boxAround(const Tile& tile, float texel) {
   // Half a texel to each side, as a texel reaches beyond its sample.
   return {tile.boundsW.min - 0.71f * texel, tile.boundsW.max + 0.71f * texel};
 }
@@ -75,19 +84,19 @@ void removeWhere(Samples& s, const std::vector<bool>& gone) {
 
 }  // namespace
 
-HiddenSamples::HiddenSamples(const trace::RayScene& rays, const Occluders& occluders,
-                             const std::vector<std::uint32_t>& chartOf)
-    : rays_(rays), occluders_(occluders), chartOf_(chartOf) {}
+HiddenSamples::HiddenSamples(const Plan& plan, const trace::RayScene& rays,
+                             const Occluders& occluders, const SurfaceParts& parts)
+    : plan_(plan), rays_(rays), occluders_(occluders), parts_(parts) {}
 
 // Sets hidden_ of these samples. Direction after direction, so that the rays of a packet go
 // together, and of those that are not sure yet.
 void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> which) {
   open_.clear();
   directions_.clear();
-  if (samples.planar) directions_.push_back(directionsAround(samples.axis));
+  if (samples.planar) directions_.push_back(directionsFrom(samples.axis));
   for (const std::uint32_t i : which) {
     if (!samples.planar)
-      directions_.push_back(directionsAround({samples.nx[i], samples.ny[i], samples.nz[i]}));
+      directions_.push_back(directionsFrom({samples.nx[i], samples.ny[i], samples.nz[i]}));
     open_.push_back({.sample = i, .directions = directions_.size() - 1});
   }
   for (std::size_t round = 0; round < kRays && !open_.empty(); ++round) {
@@ -138,55 +147,92 @@ void HiddenSamples::separate(const Samples& samples, const Tile& tile) {
     if (shares_[k] == vec3(0.f)) hidden_[which_[k]] = true;
 }
 
-void HiddenSamples::remove(Samples& samples, std::uint32_t chart) {
-  if (samples.size() == 0) return;
-  hidden_.assign(samples.size(), false);
-  const auto isCrossed = [&](const Tile& tile) {
-    return occluders_.anyIn(slabAround(samples, tile, around(tile, samples.texelSize)),
-                            [&](std::uint32_t triangle) {
-                              // Of a planar block's own triangles the slab is clear.
-                              return samples.planar || chartOf_[triangle] != chart;
-                            });
+// Of the tile's triangles the parts and, of a mesh's own chart, the places of their corners.
+void HiddenSamples::findSurface(const Samples& samples, const Chart& chart, const Tile& tile) {
+  const auto sort = [](std::vector<std::uint32_t>& list) {
+    std::ranges::sort(list);
+    const auto again = std::ranges::unique(list);
+    list.erase(again.begin(), again.end());
   };
-  // Where nothing crosses the surface, all samples are as the first is.
+  partsBelow_.clear();
+  placesBelow_.clear();
+  if (samples.planar) return;
+  const std::uint32_t first = plan_.world.objects[chart.object].firstTriangle;
+  std::uint32_t last = scene::kNone;
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+    const std::uint32_t triangle = first + chart.triangles[samples.triangles[i]];
+    if (triangle == last) continue;
+    last = triangle;
+    partsBelow_.push_back(parts_.of[triangle]);
+    if (!chart.own) break;
+    for (std::uint32_t k = 0; k < 3; ++k)
+      placesBelow_.push_back(parts_.places[plan_.world.indices[3 * triangle + k]]);
+  }
+  sort(partsBelow_);
+  sort(placesBelow_);
+}
+
+// Whether anything crosses the surface below the tile: nothing that it is a part of or meets at a
+// corner. Of a planar block's own triangles the slab is clear.
+bool HiddenSamples::isCrossed(const Samples& samples, const Chart& chart, const Tile& tile) {
+  findSurface(samples, chart, tile);
+  const auto isBelow = [](const std::vector<std::uint32_t>& list, std::uint32_t number) {
+    return std::ranges::binary_search(list, number);
+  };
+  return occluders_.anyIn(
+      slabAround(samples, tile, boxAround(tile, samples.texelSize)), [&](std::uint32_t triangle) {
+        if (samples.planar) return true;
+        if (isBelow(partsBelow_, parts_.of[triangle])) return false;
+        const std::uint32_t* corners = &plan_.world.indices[3 * std::size_t{triangle}];
+        return placesBelow_.empty() || std::none_of(corners, corners + 3, [&](std::uint32_t k) {
+                 return isBelow(placesBelow_, parts_.places[k]);
+               });
+      });
+}
+
+void HiddenSamples::remove(Samples& samples, std::uint32_t index) {
+  if (samples.size() == 0) return;
+  const Chart& chart = plan_.charts.charts[index];
+  hidden_.assign(samples.size(), false);
   crossed_.clear();
+  alike_.clear();
   which_.clear();
+  // Where nothing crosses one surface, all samples are as the first is.
   const Tile all{
       .first = 0, .count = static_cast<std::uint32_t>(samples.size()), .boundsW = samples.boundsW};
-  const bool anyCrossed = isCrossed(all);
-  if (!anyCrossed) which_.push_back(0);
-  if (anyCrossed)
-    for (const Tile& tile : samples.tiles) {
-      const bool crossed = isCrossed(tile);
-      if (crossed) crossed_.push_back(tile);
-      for (std::uint32_t i = 0; i < (crossed ? tile.count : 1); ++i)
-        which_.push_back(tile.first + i);
-    }
+  const bool anyCrossed = isCrossed(samples, chart, all) || partsBelow_.size() > 1;
+  for (const Tile& tile : anyCrossed ? std::span<const Tile>(samples.tiles) : std::span(&all, 1)) {
+    const bool crossed = anyCrossed && isCrossed(samples, chart, tile);
+    const bool alike = !crossed && partsBelow_.size() <= 1;
+    if (crossed) crossed_.push_back(tile);
+    if (alike) alike_.push_back(tile);
+    for (std::uint32_t i = 0; i < (alike ? 1 : tile.count); ++i) which_.push_back(tile.first + i);
+  }
   ask(samples, which_);
-  const auto spread = [&](const Tile& tile) {
+  for (const Tile& tile : alike_)
     if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
-  };
-  if (!anyCrossed) spread(all);
-  std::size_t next = 0;  // of crossed_
-  if (anyCrossed)
-    for (const Tile& tile : samples.tiles) {
-      const bool crossed = next < crossed_.size() && crossed_[next].first == tile.first;
-      if (crossed)
-        separate(samples, crossed_[next++]);
-      else
-        spread(tile);
-    }
+  for (const Tile& tile : crossed_) separate(samples, tile);
   if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
 }
 
-std::vector<std::uint32_t> chartsOfTriangles(const Plan& plan) {
-  std::vector<std::uint32_t> charts(plan.world.triangleCount(), scene::kNone);
-  for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i) {
-    const Chart& chart = plan.charts.charts[i];
-    const std::uint32_t first = plan.world.objects[chart.object].firstTriangle;
-    for (const std::uint32_t triangle : chart.triangles) charts[first + triangle] = i;
-  }
-  return charts;
+std::vector<bool> insideSolids(const trace::RayScene& rays, std::span<const vec3> placesW) {
+  std::vector<bool> inside(placesW.size(), true);
+  std::vector<trace::Ray> asked;
+  std::vector<int> counts;
+  for (int axis = 0; axis < 3; ++axis)
+    for (const float side : {-1.f, 1.f}) {
+      vec3 n(0.f);
+      n[axis] = side;
+      asked.clear();
+      for (const vec3 place : placesW)
+        for (const vec3 direction : around(n, kWide))
+          asked.push_back({.originW = place, .directionW = direction});
+      counts.resize(asked.size());
+      rays.solidsAround(asked, counts);
+      for (std::size_t i = 0; i < counts.size(); ++i)
+        if (counts[i] <= 0) inside[i / kRays] = false;
+    }
+  return inside;
 }
 
 }  // namespace lucerna::bake

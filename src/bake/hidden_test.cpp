@@ -70,7 +70,7 @@ void eachSample(const scene::Scene& scene, int side, const Visit& visit) {
   Result<Plan> plan = makePlan(scene, settings);
   ASSERT_TRUE(plan) << plan.error().message;
   const LightScene light(*plan);
-  HiddenSamples hidden(light.rays, light.occluders, light.chartOf);
+  HiddenSamples hidden(*plan, light.rays, light.occluders, light.parts);
   for (const Block& block : plan->blocks) {
     Samples all;
     ChartSampler(plan->world, plan->charts.charts[block.chart], side).sample(block, all);

@@ -1,6 +1,9 @@
 #include "bake/light_points.hpp"
 
 #include <cmath>
+#include <limits>
+
+#include "bake/samples.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -26,6 +29,15 @@ LightPoint middleOf(const PlacedLight& light) {
   return {.light = light,
           .centreW = light.positionW,
           .ahead = light.kind == LightKind::Point ? light.radius : 0.f};
+}
+
+float wayOut(const Aabb& boxW, vec3 placeW, vec3 directionW) {
+  float way = std::numeric_limits<float>::infinity();
+  for (int axis = 0; axis < 3; ++axis)
+    if (const float d = directionW[axis]; d != 0.f)
+      way = std::min(way, ((d > 0.f ? boxW.max : boxW.min)[axis] - placeW[axis]) / d);
+  // 2^-4 of the largest coordinate, so that rounding turns the ray by no more than 2^-20.
+  return 1.001f * std::max(way, 0.f) + 0x1p12f * liftAt(placeW);
 }
 
 Disc::Disc(const PlacedLight& light, vec3 placeW) : light_(light), frame_(axisOf(light, placeW)) {}

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/math/bounds.hpp"
 #include "scene/light.hpp"
 #include "trace/light_sampling.hpp"
 
@@ -15,9 +16,15 @@ struct LightPoint {
   float ahead = 0.f;         // m from the point to the light's surface, towards what is lit
 };
 
-// Where a ray of the point to a sample begins. back: m, more than the scene is wide.
-inline vec3 startOf(const LightPoint& point, vec3 to, float back) {
-  if (point.light.kind == scene::LightKind::Directional) return to - point.light.directionW * back;
+// m from a place in the box along the unit direction until nothing of the box is ahead, and a bit
+// farther: what is near the start of a ray from there is not in the way (kClearOfLight), and the
+// place that far off is a float's.
+float wayOut(const Aabb& boxW, vec3 placeW, vec3 directionW);
+
+// Where a ray of the point to a sample begins. boxW: of all that may be in the way.
+inline vec3 startOf(const LightPoint& point, vec3 to, const Aabb& boxW) {
+  if (point.light.kind == scene::LightKind::Directional)
+    return to - point.light.directionW * wayOut(boxW, to, -point.light.directionW);
   const vec3 from = point.light.positionW;
   if (point.ahead <= 0.f) return from;
   const float distance = std::max(glm::distance(to, from), 1e-6f);

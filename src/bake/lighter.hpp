@@ -31,6 +31,7 @@ struct LighterSettings {
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   float sceneDiagonal = 1.f;  // m
+  Aabb sceneBoxW;             // of all that may be in the way
 };
 
 // One thread's.

@@ -71,7 +71,7 @@ class OctreeTracer final : public ShadowTracer {
 
  private:
   vec3 share(vec3 from, vec3 to, Scratch& scratch) const {
-    const SegmentTest segment(from, to, kClearOfLight);
+    const SegmentTest segment(from, to, kClearOfLight, clearOfSample(to, from - to));
     scratch.mailboxes.nextRay();
     scratch.passed.clear();
     vec2 barycentric;

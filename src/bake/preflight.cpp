@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <limits>
 #include <unordered_set>
 
+#include "bake/hidden.hpp"
+#include "bake/shadow_tracer.hpp"
 #include "bake/triangle.hpp"
 #include "core/hash.hpp"
 
@@ -81,50 +82,22 @@ void countObjects(const World& world, Preflight& result) {
   }
 }
 
-// Which way a ray first meets a surface: +1 its front, -1 its back, 0 none.
-int firstSide(const World& world, vec3 origin, vec3 direction) {
-  float nearest = std::numeric_limits<float>::infinity();
-  int side = 0;
-  for (std::size_t i = 0; i < world.triangleCount(); ++i) {
-    const Corners c = cornersOf(world, i);
-    const vec3 u = c[1] - c[0], v = c[2] - c[0];
-    const vec3 p = glm::cross(direction, v);
-    const float determinant = glm::dot(u, p);  // Moeller and Trumbore, 1997
-    if (determinant == 0.f) continue;
-    const vec3 from = origin - c[0], q = glm::cross(from, u);
-    const float a = glm::dot(from, p) / determinant, b = glm::dot(direction, q) / determinant;
-    const float distance = glm::dot(v, q) / determinant;
-    if (!(a >= 0.f && b >= 0.f && a + b <= 1.f && distance > 0.f && distance < nearest)) continue;
-    nearest = distance;
-    side = (determinant > 0.f) != world.objects[world.owners[i]].mirrored ? 1 : -1;
-  }
-  return side;
-}
-
-bool seesBacksOnly(const World& world, vec3 origin) {
-  for (const float x : {-1.f, 1.f})
-    for (const float y : {-1.f, 1.f})
-      for (const float z : {-1.f, 1.f})
-        // Askew, so that they meet no edges of boxes.
-        if (firstSide(world, origin, vec3(x, 0.7f * y, 0.43f * z)) >= 0) return false;
-  return true;
-}
-
 void askLights(const Plan& plan, Preflight& result) {
-  constexpr double kMostTests = 2e8;  // about a second
-  constexpr double kRays = 3.;        // of most lights the first says it
-  const double most = kMostTests / (kRays * static_cast<double>(plan.world.triangleCount()) + 1.);
-  double asked = 0.;
+  std::vector<std::uint32_t> lamps;  // of the scene's lights
+  std::vector<vec3> placesW;
   for (const LightGroup& group : plan.groups)
     for (const scene::PlacedLight& light : group.lights) {
       if (light.light == scene::kNone) continue;  // of the sky
       ++result.lights;
       if (light.kind == scene::LightKind::Directional) continue;
-      if (++asked > most)
-        ++result.notAsked;
-      else if (seesBacksOnly(plan.world, light.positionW))
-        result.buried.push_back(plan.world.scene->lights[light.light].name);
+      lamps.push_back(light.light);
+      placesW.push_back(light.positionW);
     }
+  if (lamps.empty()) return;
+  const trace::RayScene rays(*plan.world.scene, mat4(1.f), rayInstructionSet());
+  const std::vector<bool> inside = insideSolids(rays, placesW);
+  for (std::size_t i = 0; i < lamps.size(); ++i)
+    if (inside[i]) result.buried.push_back(plan.world.scene->lights[lamps[i]].name);
 }
 
 }  // namespace
@@ -147,9 +120,6 @@ std::vector<std::string> Preflight::sentences() const {
     list.push_back(fmt::format(
         "{} lights are inside of solids and light nothing outside: {}", buried.size(),
         fmt::join(std::span(buried).first(std::min<std::size_t>(buried.size(), 10)), ", ")));
-  if (notAsked > 0)
-    list.push_back(
-        fmt::format("{} lights were not asked whether they are inside of solids", notAsked));
   return list;
 }
 

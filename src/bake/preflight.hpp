@@ -17,8 +17,7 @@ struct Preflight {
   std::uint64_t unlit = 0;                // objects that take no light
   std::uint64_t bending = 0, moving = 0;  // objects; those that do both bend
   std::uint64_t lights = 0;               // that are baked
-  std::vector<std::string> buried;        // names of lights that see backs of surfaces only
-  std::uint64_t notAsked = 0;             // lights of which that would take too long to ask
+  std::vector<std::string> buried;        // names of lights inside of solids (bake/hidden.hpp)
 
   // One sentence for each that is not as it should be, but for what Plan::warnings says.
   std::vector<std::string> sentences() const;

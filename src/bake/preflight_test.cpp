@@ -113,6 +113,27 @@ TEST(Preflight, FindsLightsInSolidsOnly) {
   EXPECT_THAT(inspected(mirrored).buried, ElementsAre("inside"));
 }
 
+// A bulb in a globe of glass shines out; in one of glass within a closed box it does not. Nor does
+// what is open to one side hold a lamp.
+TEST(Preflight, GlassAndHousingsAreNoSolids) {
+  scene::Scene globe = boxScene(false);
+  globe.materials[0].alphaMode = scene::AlphaMode::Blend;
+  EXPECT_THAT(inspected(globe).buried, ElementsAre());
+  scene::Scene both = globe;
+  both.materials.emplace_back();
+  scene::addNode(both, "box", glm::scale(mat4(1.f), vec3(2.f)));
+  addObject(both, static_cast<std::uint32_t>(both.nodes.size() - 1), 2);
+  scene::updateTransforms(both);
+  EXPECT_THAT(inspected(both).buried, ElementsAre("inside"));
+  for (std::size_t face = 0; face < 6; ++face) {
+    scene::Scene housing = boxScene(false);
+    std::vector<std::uint32_t>& indices = housing.meshes[0].indices;
+    const auto first = indices.begin() + static_cast<std::ptrdiff_t>(6 * face);
+    indices.erase(first, first + 6);
+    EXPECT_THAT(inspected(housing).buried, ElementsAre()) << face;
+  }
+}
+
 TEST(Estimate, OfAllUnitsIsOfTheWholeBake) {
   const auto scene = scene::makeBuiltin("builtin:cornell");
   ASSERT_TRUE(scene);

@@ -152,11 +152,6 @@ void findBounds(Samples& s, vec3 along) {
 
 }  // namespace
 
-float liftAt(vec3 positionW) {
-  const vec3 size = glm::abs(positionW);
-  return std::max({size.x, size.y, size.z, 0.1f}) * 0x1p-16f;
-}
-
 void addBlocks(std::vector<Block>& blocks, const Chart& chart, std::uint32_t index) {
   for (int y = 0; y < chart.size.y; y += kBlockSide)
     for (int x = 0; x < chart.size.x; x += kBlockSide)

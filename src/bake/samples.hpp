@@ -1,6 +1,7 @@
 // Where a chart is lit: points on the surface below the texels of a block.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -52,7 +53,10 @@ struct Samples {
 
 // m that samples are clear of the surface: some rounding errors of such a place; as much as the
 // reference's rays.
-float liftAt(vec3 positionW);
+inline float liftAt(vec3 positionW) {
+  const vec3 size = glm::abs(positionW);
+  return std::max(std::max(size.x, size.y), std::max(size.z, 0.1f)) * 0x1p-16f;
+}
 
 // Finds the samples of the blocks of one chart.
 class ChartSampler {

@@ -14,8 +14,9 @@ namespace lucerna::bake {
 
 class SegmentTest {
  public:
-  // clear: the share of the segment, from its start, that meets nothing.
-  SegmentTest(vec3 from, vec3 to, float clear) : from_(from), clear_(clear) {
+  // clear, clearOfEnd: the shares of the segment, at its start and its end, that meet nothing.
+  SegmentTest(vec3 from, vec3 to, float clear, float clearOfEnd = 0.f)
+      : from_(from), clear_(clear), most_(1. - clearOfEnd) {
     const glm::dvec3 along = glm::dvec3(to) - from_;
     const glm::dvec3 size = glm::abs(along);
     z_ = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
@@ -35,7 +36,8 @@ class SegmentTest {
     if (std::min(std::min(u, v), w) < 0. && std::max(std::max(u, v), w) > 0.) return false;
     const double sum = u + v + w;
     const double depth = (u * a.z + v * b.z + w * c.z) / length_;  // times the sum
-    if (!(sum > 0. ? depth > clear_ * sum && depth <= sum : depth < clear_ * sum && depth >= sum))
+    if (!(sum > 0. ? depth > clear_ * sum && depth <= most_ * sum
+                   : depth < clear_ * sum && depth >= most_ * sum))
       return false;
     barycentric = vec2(static_cast<float>(v / sum), static_cast<float>(w / sum));
     return true;
@@ -53,7 +55,7 @@ class SegmentTest {
 
   glm::dvec3 from_;
   int x_, y_, z_;  // z: the axis of most extent; x, y: those that follow it
-  double shearX_, shearY_, length_, clear_;
+  double shearX_, shearY_, length_, clear_, most_;
 };
 
 }  // namespace lucerna::bake

@@ -2,12 +2,14 @@
 // two engines that answer it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "bake/samples.hpp"
 #include "bake/world.hpp"
 
 namespace lucerna::bake {
@@ -15,10 +17,17 @@ namespace lucerna::bake {
 // What lies within this share of the way from the light is not in the way: a lamp's own surface.
 inline constexpr float kClearOfLight = 0x1p-12f;  // as the reference
 
-// What lies within this share of the way from the sample is not, either: so far may a ray that
-// starts far away be beside it, which is more than samples near the origin are clear of their
-// surface.
-inline constexpr float kClearOfSample = 0x1p-19f;
+// What lies within this share of the way from the sample is not, either, as that much rounding may
+// move what is as large as the way is long: more than samples near the origin are clear of their
+// surface. In metres no more than what nobody sees, or half of what samples are clear of it.
+inline constexpr float kClearOfSample = 0x1p-19f, kMostClearOfSample = 0x1p-11f;
+
+// What of the way to the light is clear of a sample.
+inline float clearOfSample(vec3 sampleW, vec3 toLightW) {
+  const float most = std::max(kMostClearOfSample, 0.5f * liftAt(sampleW));
+  const vec3 size = glm::abs(toLightW);  // no square root: Embree is as fast as this
+  return std::min(kClearOfSample, most / std::max(std::max(size.x, size.y), size.z));
+}
 
 // Rays from a light to samples, in world space (m). Neighbours in the list should be neighbours in
 // the scene.

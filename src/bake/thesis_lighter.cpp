@@ -84,7 +84,7 @@ void ThesisLighter::lightBy(const Samples& s, const Part& part, const LightPoint
   rays_.resize(lit_.size());
   for (std::size_t k = first; k < lit_.size(); ++k) {
     const std::uint32_t i = lit_[k];
-    const vec3 to(s.x[i], s.y[i], s.z[i]), from = startOf(point, to, settings_.sceneDiagonal);
+    const vec3 to(s.x[i], s.y[i], s.z[i]), from = startOf(point, to, settings_.sceneBoxW);
     rays_.fromX[k] = from.x, rays_.fromY[k] = from.y, rays_.fromZ[k] = from.z;
     rays_.toX[k] = to.x, rays_.toY[k] = to.y, rays_.toZ[k] = to.z;
   }

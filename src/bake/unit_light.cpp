@@ -35,7 +35,8 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
 std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
   const LighterSettings settings{.lightSamples = plan.settings.sampling.lightSamples,
                                  .emitterSize = plan.settings.sampling.emitterSize,
-                                 .sceneDiagonal = scene.diagonal};
+                                 .sceneDiagonal = scene.diagonal,
+                                 .sceneBoxW = scene.boxW};
   switch (scene.engine) {
     case Engine::Embree:
       return std::make_unique<BlockLighter>(*scene.tracer, scene.occluders, scene.emitters,
@@ -58,6 +59,7 @@ template <typename Stream, typename L>
 void fields(Stream& stream, L& light) {
   stream.list(light.blocks, [](auto& s, auto& block) {
     s(block.touched);
+    s(block.hidden);
     s.list(block.groups, [](auto& inner, auto& group) {
       inner(group.group);
       inner(group.rgb);
@@ -67,12 +69,27 @@ void fields(Stream& stream, L& light) {
 
 bool isSound(const BlockLight& light, const Block& block, std::size_t groups) {
   const auto texels = static_cast<std::size_t>(block.size.x) * block.size.y;
-  if (light.touched.size() != (texels + 7) / 8) return false;
+  const auto isOfBlock = [&](const std::vector<std::uint8_t>& bits) {
+    return bits.size() == (texels + 7) / 8 && (texels % 8 == 0 || bits.back() >> texels % 8 == 0);
+  };
+  if (!isOfBlock(light.touched)) return false;
+  if (!light.hidden.empty() && !isOfBlock(light.hidden)) return false;
   std::size_t touched = 0;
-  for (const std::uint8_t byte : light.touched) touched += std::popcount(byte);
+  for (std::size_t i = 0; i < light.touched.size(); ++i) {
+    touched += std::popcount(light.touched[i]);
+    if (!light.hidden.empty() && (light.touched[i] & light.hidden[i]) != 0) return false;
+  }
   return std::ranges::all_of(light.groups, [&](const GroupLight& group) {
     return group.group < groups && group.rgb.size() == 3 * touched;
   });
+}
+
+// Those that have samples.
+std::vector<std::uint8_t> bitsOf(const Samples& samples) {
+  std::vector<std::uint8_t> bits((samples.texelCount + 7) / 8, 0);
+  for (const std::uint16_t texel : samples.texels)
+    bits[texel / 8] |= static_cast<std::uint8_t>(1u << (texel % 8));
+  return bits;
 }
 
 }  // namespace
@@ -104,8 +121,9 @@ LightScene::LightScene(const Plan& plan, Engine engineOf)
       occluders(plan.world),
       emitters(emittersOf(plan, engine)),
       rays(*plan.world.scene, mat4(1.f), rayInstructionSet()),
-      chartOf(chartsOfTriangles(plan)),
-      diagonal(std::max(boundsOf(plan.world).diagonal(), 1e-3f)) {
+      parts(surfaceParts(plan)),
+      boxW(boundsOf(plan.world)),
+      diagonal(std::max(boxW.diagonal(), 1e-3f)) {
   if (engine == Engine::Octree)
     cells = cellLights(emitters, *plan.world.scene);
   else
@@ -116,7 +134,7 @@ UnitLighter::UnitLighter(const Plan& plan, const LightScene& scene)
     : plan_(plan),
       scene_(scene),
       lighter_(makeLighter(plan, scene)),
-      hidden_(scene.rays, scene.occluders, scene.chartOf) {}
+      hidden_(plan, scene.rays, scene.occluders, scene.parts) {}
 
 const Samples& UnitLighter::sample(const Block& block) {
   const auto start = Clock::now();
@@ -129,6 +147,7 @@ const Samples& UnitLighter::sample(const Block& block) {
   }
   block_ = block;
   sampler_->sample(block, samples_);
+  reached_ = bitsOf(samples_);
   hidden_.remove(samples_, block.chart);
   samplingSeconds += secondsSince(start);
   return samples_;
@@ -181,9 +200,11 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
   sample(block);
   const auto count = static_cast<std::size_t>(block.size.x) * block.size.y;
   BlockLight result;
-  result.touched.assign((count + 7) / 8, 0);
-  for (const std::uint16_t texel : samples_.texels)
-    result.touched[texel / 8] |= static_cast<std::uint8_t>(1u << (texel % 8));
+  result.touched = bitsOf(samples_);
+  if (result.touched != reached_) {
+    result.hidden = reached_;
+    for (std::size_t i = 0; i < result.hidden.size(); ++i) result.hidden[i] ^= result.touched[i];
+  }
   for (std::uint32_t g = 0; g < plan_.groups.size(); ++g) {
     texels_.resize(count);
     if (!lightGroup(g, texels_) ||
@@ -191,7 +212,7 @@ BlockLight UnitLighter::lightBlock(const Block& block) {
       continue;
     GroupLight& group = result.groups.emplace_back(GroupLight{.group = g, .rgb = {}});
     for (std::size_t i = 0; i < count; ++i)
-      if (result.touched[i / 8] >> (i % 8) & 1)
+      if (hasBit(result.touched, i))
         for (int c = 0; c < 3; ++c) group.rgb.push_back(halfFromFloat(storable(texels_[i][c])));
   }
   return result;

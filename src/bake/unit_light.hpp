@@ -19,10 +19,15 @@ struct GroupLight {
   std::uint32_t group = 0;  // of Plan::groups
   std::vector<std::uint16_t> rgb;
 };
+// Bits: one for each texel of the block, row by row, the lowest first.
 struct BlockLight {
-  std::vector<std::uint8_t> touched;  // a bit for each texel of the block, row by row, lowest first
+  std::vector<std::uint8_t> touched;  // bits: has samples
+  std::vector<std::uint8_t> hidden;   // bits: had some, which are inside of solids; empty: none
   std::vector<GroupLight> groups;     // those that give some light, in rising order
 };
+inline bool hasBit(const std::vector<std::uint8_t>& bits, std::size_t texel) {
+  return !bits.empty() && (bits[texel / 8] >> (texel % 8) & 1) != 0;
+}
 struct UnitLight {
   std::vector<BlockLight> blocks;  // as the unit's
 };
@@ -46,8 +51,9 @@ struct LightScene {
   std::vector<scene::PlacedLight> cells;  // of the emitters, as lights; of the octree only
   std::vector<scene::Bvh> reaches;  // of each group's lights; none for the octree, which asks all
   trace::RayScene rays;
-  std::vector<std::uint32_t> chartOf;  // of each triangle
-  float diagonal = 0.f;                // m
+  SurfaceParts parts;
+  Aabb boxW;             // of all triangles
+  float diagonal = 0.f;  // m, of the box
 };
 
 // One thread's way through the units.
@@ -78,6 +84,7 @@ class UnitLighter {
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
   Samples samples_, fineSamples_;
+  std::vector<std::uint8_t> reached_;  // bits of the block: has samples, hidden ones or not
   std::vector<vec3> texels_, part_, finePart_;
 };
 

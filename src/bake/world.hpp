@@ -17,8 +17,7 @@ struct WorldObject {
   bool mirrored = false;  // the front of its triangles is their clockwise side
 };
 
-// m from the origin, along each axis: where floats tell 6 cm. Rays of a sun are as long as the
-// scene and miss what is nearer to their ends than a float tells at such a length.
+// m from the origin, along each axis: where floats tell 6 cm.
 inline constexpr float kFarthestCorner = 1e6f;
 
 // The scene outlives it.

@@ -560,6 +560,7 @@ class BakeTest(unittest.TestCase):
             "".join(f"v {x} {y} {z}\n" for x, y, z in corners) + "".join(f"f {side}\n" for side in sides))
         (self.folder / "lamps.json").write_text(json.dumps(
             {"lucerna": "scene/1", "include": [{"file": "box.obj"}],
+             "materials": {"default": {"doubleSided": False}},
              "lights": [{"name": "inside", "kind": "point", "intensity": 1, "position": [0.1, 0.2, 0]},
                         {"name": "outside", "kind": "point", "intensity": 1, "position": [0, 3, 0]}]}))
         found = json.loads(self.ok(self.lucerna("bake", "lamps.json", "--dry-run", "--json")).stdout)["found"]
