@@ -7,6 +7,7 @@
 #include "bake/block_lighter.hpp"
 #include "bake/polygon_light.hpp"
 #include "bake/seconds.hpp"
+#include "trace/low_discrepancy.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -18,6 +19,10 @@ float distanceBetween(const Aabb& a, const Aabb& b) {
 // The largest dot(axis, p) of the box's points.
 float highestAlong(vec3 axis, const Aabb& box) {
   return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
+}
+
+float brightness(vec3 color) {
+  return color.x + color.y + color.z;
 }
 
 }  // namespace
@@ -75,6 +80,41 @@ void BlockLighter::shadeEmission(const Samples& s, const Emission& e, float reac
   }
 }
 
+// For each place of a texel a point of what the node stands for, by its light: a cell of its tree,
+// found by halves, and a point of that.
+void BlockLighter::findOrigins(const Samples& samples, std::uint32_t node) {
+  origins_.clear();
+  if (samples.perTexel == 1) return;
+  const std::vector<EmitterNode>& nodes = emitters_.nodes;
+  for (std::uint32_t place = 0; place < samples.perTexel; ++place) {
+    vec2 u = trace::lowDiscrepancyPoint(place, trace::mixed(samples.perTexel, node));
+    std::uint32_t at = node;
+    while (!nodes[at].isCell()) {
+      const float left = brightness(nodes[at + 1].emission.intensity),
+                  share = left / (left + brightness(nodes[nodes[at].right].emission.intensity));
+      const bool isLeft = u.x < share;
+      u.x = isLeft ? u.x / share : (u.x - share) / (1.f - share);
+      at = isLeft ? at + 1 : nodes[at].right;
+    }
+    const EmitterNode& cell = nodes[at];
+    origins_.push_back(cell.emission.positionW + (u.x - 0.5f) * cell.alongU +
+                       (u.y - 0.5f) * cell.alongV);
+  }
+}
+
+// Lets the rays from the first on start at origins_, where these are above the surface that is lit.
+void BlockLighter::moveOrigins(const Samples& s, std::size_t first) {
+  for (std::size_t i = first; i < lit_.size(); ++i) {
+    const std::uint32_t at = lit_[i];
+    const vec3 from = origins_[s.places[at]];
+    const vec3 to(s.x[at], s.y[at], s.z[at]), normal(s.nx[at], s.ny[at], s.nz[at]);
+    if (glm::dot(from - to, normal) <= liftAt(to)) continue;
+    rays_.fromX[i] = from.x;
+    rays_.fromY[i] = from.y;
+    rays_.fromZ[i] = from.z;
+  }
+}
+
 // corrected: the weights times corrections_.
 void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
                                float reach, bool corrected) {
@@ -84,7 +124,8 @@ void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const E
       weights_[i] *= corrections_[i];
   const LightPoint point{.light = lightOf(emission, scene_, reach), .centreW = emission.positionW};
   const std::size_t first = lit_.size();
-  collect(samples, point, tile, {});
+  collect(samples, point, tile);
+  if (!origins_.empty()) moveOrigins(samples, first);
   values_.resize(lit_.size());
   for (std::size_t i = first; i < lit_.size(); ++i)
     values_[i] = point.light.intensity * weights_[lit_[i]];
@@ -109,6 +150,7 @@ void BlockLighter::flush() {
 // nothing is in the way is known.
 void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
                                int split) {
+  const auto seed = static_cast<std::uint32_t>(&cell - emitters_.nodes.data());
   const int count = split * split;
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
@@ -141,6 +183,15 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   }
   for (int i = 0; i < count; ++i) {
     part.positionW = pointAt(i);
+    origins_.clear();
+    for (std::uint32_t place = 0; samples.perTexel > 1 && place < samples.perTexel; ++place) {
+      const vec2 shift =
+          (trace::lowDiscrepancyPoint(
+               place, trace::mixed(samples.perTexel, seed + static_cast<std::uint32_t>(i))) -
+           0.5f) /
+          static_cast<float>(split);
+      origins_.push_back(part.positionW + u * shift.x + v * shift.y);
+    }
     addEmission(samples, tile, part, cell.reach, corrected);
   }
 }
@@ -152,8 +203,10 @@ void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const E
   const float wanted = node.size / (settings_.emitterSize * std::max(distance, 1e-6f));
   if (node.isCell() && wanted > 1.f)
     lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
-  else
+  else {
+    findOrigins(samples, static_cast<std::uint32_t>(&node - emitters_.nodes.data()));
     addEmission(samples, tile, node.emission, node.reach, false);
+  }
 }
 
 // found_: the nodes with one direction that may light the block, for all of its tiles.

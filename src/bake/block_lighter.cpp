@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "bake/seconds.hpp"
 #include "core/check.hpp"
 #include "trace/light_sampling.hpp"
+#include "trace/low_discrepancy.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -15,8 +15,8 @@ namespace {
 using scene::LightKind;
 using scene::PlacedLight;
 
-// On the rim of a light with a size: if they agree, they stand for all. Of a disc beyond a straight
-// edge that all of them miss there is 1 %.
+// On the rim of a light with a size: if they agree, they stand for all, for a texel of one place.
+// Of a disc beyond a straight edge that all of them miss there is 1 %.
 constexpr int kRimPoints = 8;
 
 float distanceTo(const Aabb& box, vec3 p) {
@@ -84,11 +84,17 @@ vec2 onCircle(float radius, float turn) {
 }
 
 // The i-th of n points that fill the unit disc evenly, seen along any edge too (Vogel, "A Better
-// Way to Construct the Sunflower Head", 1979).
-vec2 spiralPoint(int i, int n) {
+// Way to Construct the Sunflower Head", 1979). shift: within 0 and 1, outwards by points, and
+// turns.
+vec2 spiralPoint(int i, int n, vec2 shift) {
   constexpr float kGolden = 0.381966f;  // of a turn
-  return onCircle(std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)),
-                  kGolden * static_cast<float>(i));
+  return onCircle(std::sqrt((static_cast<float>(i) + shift.x) / static_cast<float>(n)),
+                  kGolden * static_cast<float>(i) + shift.y);
+}
+
+// Of each place of a texel's pattern: all points of all places fill the disc evenly too.
+vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel) {
+  return perTexel == 1 ? vec2(0.5f, 0.f) : trace::lowDiscrepancyPoint(place, perTexel);
 }
 
 }  // namespace
@@ -175,18 +181,11 @@ void BlockLighter::shade(const Samples& s, const LightPoint& point, Tile range) 
   }
 }
 
-// Appends to lit_ and rays_ the samples of the range that the point may light, of those in `among`
-// (all if it is empty).
-void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
-                           std::span<const std::uint32_t> among) {
+// Appends to lit_ and rays_ the samples of the range that the point may light.
+void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range) {
   const std::size_t first = lit_.size();
-  if (among.empty()) {
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
-      if (weights_[i] > 0.f) lit_.push_back(i);
-  } else {
-    for (const std::uint32_t i : among)
-      if (weights_[i] > 0.f) lit_.push_back(i);
-  }
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+    if (weights_[i] > 0.f) lit_.push_back(i);
   rays_.resize(lit_.size());
   const bool directional = p.light.kind == LightKind::Directional;
   const vec3 back = -p.light.directionW * settings_.sceneDiagonal;
@@ -205,11 +204,8 @@ void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
   }
 }
 
-// Leaves lit_ and what each of them sees in shares_.
-void BlockLighter::tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
-                              std::span<const std::uint32_t> among) {
-  lit_.clear();
-  collect(samples, point, range, among);
+// Leaves what each of lit_ sees in shares_.
+void BlockLighter::traceCollected() {
   shares_.assign(lit_.size(), vec3(1.f));
   counters.pairs += lit_.size();
   counters.rays += lit_.size();
@@ -227,17 +223,74 @@ bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) con
   return !occluders_.anyIn(shaftFrom(light.positionW, ballOf(light), samples));
 }
 
+// Sorts unsure_ by places, and puts them into gathered_.
+void BlockLighter::gather(const Samples& s) {
+  std::ranges::stable_sort(unsure_, {}, [&](std::uint32_t i) { return s.places[i]; });
+  places_.clear();
+  for (auto* list :
+       {&gathered_.x, &gathered_.y, &gathered_.z, &gathered_.nx, &gathered_.ny, &gathered_.nz})
+    list->clear();
+  for (const std::uint32_t i : unsure_) {
+    if (places_.empty() || places_.back().place != s.places[i])
+      places_.push_back(
+          {.place = s.places[i],
+           .range = {
+               .first = static_cast<std::uint32_t>(gathered_.size()), .count = 0, .boundsW = {}}});
+    ++places_.back().range.count;
+    gathered_.x.push_back(s.x[i]);
+    gathered_.y.push_back(s.y[i]);
+    gathered_.z.push_back(s.z[i]);
+    gathered_.nx.push_back(s.nx[i]);
+    gathered_.ny.push_back(s.ny[i]);
+    gathered_.nz.push_back(s.nz[i]);
+  }
+}
+
+// One more point for all that are gathered: pointOf(place).
+template <typename PointOf>
+void BlockLighter::ask(const PointOf& pointOf) {
+  lit_.clear();
+  rays_.resize(0);
+  for (const Asked& asked : places_) {
+    const LightPoint point = pointOf(asked.place);
+    shade(gathered_, point, asked.range);
+    collect(gathered_, point, asked.range);
+  }
+  traceCollected();
+  for (std::size_t i = 0; i < lit_.size(); ++i) {
+    const float weight = weights_[lit_[i]];
+    seen_[unsure_[lit_[i]]] += weight * shares_[i];
+    asked_[unsure_[lit_[i]]] += weight;
+  }
+}
+
+// Those whose points all see the light, or none; byTexel: the points of all of the texel's samples.
+void BlockLighter::dropSure(const Samples& samples, bool byTexel) {
+  constexpr std::uint8_t kSeen = 1, kBlocked = 2;
+  const auto answer = [&](std::uint32_t i) {
+    if (asked_[i] == 0.f) return kSeen | kBlocked;
+    return (seen_[i] != vec3(0.f) ? kSeen : 0) | (seen_[i] != vec3(asked_[i]) ? kBlocked : 0);
+  };
+  if (!byTexel) {
+    std::erase_if(unsure_, [&](std::uint32_t i) { return answer(i) != (kSeen | kBlocked); });
+    return;
+  }
+  answers_.assign(samples.texelCount, 0);
+  for (const std::uint32_t i : unsure_)
+    answers_[samples.texels[i]] |= static_cast<std::uint8_t>(answer(i));
+  std::erase_if(unsure_,
+                [&](std::uint32_t i) { return answers_[samples.texels[i]] != (kSeen | kBlocked); });
+}
+
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
-  const auto ask = [&](vec2 p) {
-    const LightPoint point = disc.at(p);
-    shade(samples, point, tile);
-    tracePoint(samples, point, tile, unsure_);
-    for (std::size_t i = 0; i < lit_.size(); ++i) {
-      seen_[lit_[i]] += weights_[lit_[i]] * shares_[i];
-      asked_[lit_[i]] += weights_[lit_[i]];
-    }
+  const int count = settings_.lightSamples;
+  const auto askSpiral = [&](int first, int step) {
+    for (int i = first; i < count; i += step)
+      ask([&](std::uint16_t place) {
+        return disc.at(spiralPoint(i, count, shiftOf(place, samples.perTexel)));
+      });
   };
   const auto restart = [&] {
     for (const std::uint32_t i : unsure_) {
@@ -246,14 +299,23 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
     }
   };
   restart();
+  gather(samples);
+  if (samples.perTexel > 1) {
+    askSpiral(0, 2);
+    dropSure(samples, true);
+    gather(samples);
+    if (!unsure_.empty()) askSpiral(1, 2);
+    return;
+  }
   for (int i = 0; i < kRimPoints; ++i)
-    ask(onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints)));
-  std::erase_if(unsure_, [&](std::uint32_t i) {
-    return asked_[i] > 0.f && (seen_[i] == vec3(0.f) || seen_[i] == vec3(asked_[i]));
-  });
-  restart();
+    ask([&](std::uint16_t) {
+      return disc.at(onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints)));
+    });
+  dropSure(samples, false);
   if (unsure_.empty()) return;
-  for (int i = 0; i < settings_.lightSamples; ++i) ask(spiralPoint(i, settings_.lightSamples));
+  restart();
+  gather(samples);
+  askSpiral(0, 1);
 }
 
 void BlockLighter::lightBySized(const Samples& samples, const Tile& tile, const PlacedLight& light,
@@ -306,7 +368,10 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
         counters.pairs += weights_[i] > 0.f;
       }
     } else {
-      tracePoint(samples, point, all, {});
+      lit_.clear();
+      rays_.resize(0);
+      collect(samples, point, all);
+      traceCollected();
       for (std::size_t i = 0; i < lit_.size(); ++i)
         sums_[lit_[i]] += light.intensity * weights_[lit_[i]] * shares_[i];
     }
@@ -314,50 +379,107 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
 }
 
+void BlockLighter::lightByAllEmitters(const Samples& samples) {
+  lit_.clear();
+  rays_.resize(0);
+  for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
+}
+
+// Calls what(first, end) for each texel's range of samples.
+template <typename What>
+static void forTexels(const Samples& samples, const What& what) {
+  for (std::size_t i = 0; i < samples.size();) {
+    const std::size_t first = i;
+    while (i < samples.size() && samples.texels[i] == samples.texels[first]) ++i;
+    what(first, i);
+  }
+}
+
+void BlockLighter::addMeans(const Samples& samples, std::vector<vec3>& texels) const {
+  forTexels(samples, [&](std::size_t first, std::size_t end) {
+    vec3 sum(0.f);
+    for (std::size_t i = first; i < end; ++i) sum += sums_[i];
+    texels[samples.texels[first]] += sum / static_cast<float>(end - first);
+  });
+}
+
+// Of one light, which sums_ has: adds the texels' means, and starts sums_ again.
+void BlockLighter::findUneven(const Samples& samples, std::uint32_t light,
+                              std::vector<UnevenTexel>& uneven, std::vector<vec3>& texels) {
+  const auto brightness = [&](vec3 v) { return v.x + v.y + v.z; };
+  forTexels(samples, [&](std::size_t first, std::size_t end) {
+    const auto count = static_cast<float>(end - first);
+    vec3 mean(0.f);
+    for (std::size_t i = first; i < end; ++i) mean += sums_[i] / count;
+    const std::uint16_t texel = samples.texels[first];
+    texels[texel] += mean;
+    float squares = 0.f;
+    for (std::size_t i = first; i < end; ++i) {
+      const float off = brightness(sums_[i]) - brightness(mean);
+      squares += off * off / count;
+    }
+    const float deviation = std::sqrt(squares);
+    if (deviation > settings_.uneven * brightness(mean))
+      uneven.push_back(
+          {.light = light, .texel = texel, .irradiance = mean, .deviation = deviation});
+  });
+  sums_.assign(samples.size(), vec3(0.f));
+}
+
 bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
-                         std::vector<vec3>& texels) {
+                         std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) {
   found_.clear();
   if (emitters && !emitters_.nodes.empty()) findNodes(samples);
   const auto first = std::ranges::find_if(
       lights, [&](const PlacedLight& light) { return mayLight(samples, light); });
   if (first == lights.end() && found_.empty()) return false;
   sums_.assign(samples.size(), vec3(0.f));
-  for (const PlacedLight& light : lights.subspan(static_cast<std::size_t>(first - lights.begin())))
-    if (mayLight(samples, light)) lightBy(samples, light);
-  lit_.clear();
-  rays_.resize(0);
-  if (!found_.empty())
-    for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
   texels.assign(samples.texelCount, vec3(0.f));
-  for (std::size_t i = 0; i < samples.size();) {
-    const std::size_t begin = i;
-    vec3 sum(0.f);
-    for (; i < samples.size() && samples.texels[i] == samples.texels[begin]; ++i) sum += sums_[i];
-    texels[samples.texels[begin]] = sum / static_cast<float>(i - begin);
+  if (uneven) uneven->clear();
+  for (auto i = static_cast<std::uint32_t>(first - lights.begin()); i < lights.size(); ++i) {
+    if (!mayLight(samples, lights[i])) continue;
+    lightBy(samples, lights[i]);
+    if (uneven) findUneven(samples, i, *uneven, texels);
   }
+  if (!found_.empty()) lightByAllEmitters(samples);
+  if (!uneven) {
+    addMeans(samples, texels);
+    return true;
+  }
+  if (!found_.empty()) findUneven(samples, UnevenTexel::kEmitters, *uneven, texels);
+  // Against all light of the texel.
+  constexpr float kFaint = 0.01f;  // of the brightest: no texel counts as less
+  const auto brightness = [](vec3 v) { return v.x + v.y + v.z; };
+  float most = 0.f;
+  for (const vec3 texel : texels) most = std::max(most, brightness(texel));
+  std::erase_if(*uneven, [&](const UnevenTexel& u) {
+    return u.deviation <= settings_.uneven * std::max(brightness(texels[u.texel]), kFaint * most);
+  });
   return true;
 }
 
-std::vector<bool> BlockLighter::unevenTexels(const Samples& samples, float share,
-                                             std::size_t texels) const {
-  std::vector<bool> uneven(texels, false);
-  const auto brightness = [&](std::size_t i) { return sums_[i].x + sums_[i].y + sums_[i].z; };
-  float most = 0.f;
-  for (std::size_t i = 0; i < samples.size(); ++i) most = std::max(most, brightness(i));
-  constexpr float kFaint = 0.01f;  // of the brightest: no texel's mean counts as less
-  for (std::size_t i = 0; i < samples.size();) {
+void BlockLighter::relight(const Samples& samples, std::span<const PlacedLight> lights,
+                           std::span<const UnevenTexel> uneven, std::vector<vec3>& texels) {
+  for (std::size_t i = 0; i < uneven.size();) {
+    const std::uint32_t light = uneven[i].light;
     const std::size_t first = i;
-    float low = std::numeric_limits<float>::infinity(), high = 0.f, sum = 0.f;
-    for (; i < samples.size() && samples.texels[i] == samples.texels[first]; ++i) {
-      const float b = brightness(i);
-      low = std::min(low, b);
-      high = std::max(high, b);
-      sum += b;
+    relit_.assign(samples.texelCount, false);
+    for (; i < uneven.size() && uneven[i].light == light; ++i) relit_[uneven[i].texel] = true;
+    choose(samples, relit_, part_);
+    if (part_.size() == 0) continue;
+    sums_.assign(part_.size(), vec3(0.f));
+    if (light != UnevenTexel::kEmitters) {
+      lightBy(part_, lights[light]);
+    } else {
+      findNodes(part_);
+      lightByAllEmitters(part_);
     }
-    const float mean = sum / static_cast<float>(i - first);
-    uneven[samples.texels[first]] = high - low > share * std::max(mean, kFaint * most);
+    // A texel of which no finer sample is left keeps what it has.
+    for (const std::uint16_t texel : part_.texels) relit_[texel] = false;
+    for (const UnevenTexel& u : uneven.subspan(first, i - first))
+      if (!relit_[u.texel]) texels[u.texel] -= u.irradiance;
+    addMeans(part_, texels);
   }
-  return uneven;
 }
 
 }  // namespace lucerna::bake

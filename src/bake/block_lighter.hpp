@@ -29,11 +29,13 @@ struct LightCounters {
 };
 
 struct LighterSettings {
-  // Points on each light that has a size, where eight on its rim do not agree on what they see; 1:
-  // its middle alone.
+  // Points on each light that has a size, where the first few do not agree on what they see; 1: its
+  // middle alone. Each place of a texel's pattern has points of its own.
   int lightSamples = 16;
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
+  // A texel is uneven where its samples deviate by more than this share of its light.
+  float uneven = 0.1f;
   float sceneDiagonal = 1.f;  // m
 };
 
@@ -42,6 +44,15 @@ struct LightPoint {
   scene::PlacedLight light;  // as if it had no size and stood there
   vec3 centreW{0.f};         // of the light: distances count from there
   float ahead = 0.f;         // m from the point to the light's surface, towards what is lit
+};
+
+// What a texel has got of one light, whose shadow's edge crosses it.
+struct UnevenTexel {
+  static constexpr std::uint32_t kEmitters = 0xffffffffu;
+  std::uint32_t light = 0;  // place in the list; kEmitters: all emitting surfaces
+  std::uint16_t texel = 0;
+  vec3 irradiance{0.f};
+  float deviation = 0.f;  // of its samples' brightness from their mean, root mean square
 };
 
 // One thread's.
@@ -53,12 +64,13 @@ class BlockLighter {
 
   // The mean irradiance (scene/light.hpp) of each texel of the block, row by row; of emitting
   // surfaces only if `emitters` is set. False, and nothing is written: nothing reaches the block.
+  // uneven: if it is not null, the texels that shadows' edges cross, light by light.
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::vector<vec3>& texels);
+             std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven);
 
-  // Of the block that was lit last, texels whose samples differ by more than this share of their
-  // mean: shadows' edges. As `texels` above.
-  std::vector<bool> unevenTexels(const Samples& samples, float share, std::size_t texels) const;
+  // Puts what these samples get in the place of what those texels have got, each of its light.
+  void relight(const Samples& samples, std::span<const scene::PlacedLight> lights,
+               std::span<const UnevenTexel> uneven, std::vector<vec3>& texels);
 
   LightCounters counters;
 
@@ -68,14 +80,20 @@ class BlockLighter {
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
+  void lightByAllEmitters(const Samples& samples);
+  void addMeans(const Samples& samples, std::vector<vec3>& texels) const;
+  void findUneven(const Samples& samples, std::uint32_t light, std::vector<UnevenTexel>& uneven,
+                  std::vector<vec3>& texels);
   void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
                     bool clear);
+  void gather(const Samples& samples);
+  template <typename PointOf>
+  void ask(const PointOf& pointOf);
+  void dropSure(const Samples& samples, bool byTexel);
   void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
   void shade(const Samples& samples, const LightPoint& point, Tile range);
-  void collect(const Samples& samples, const LightPoint& point, Tile range,
-               std::span<const std::uint32_t> among);
-  void tracePoint(const Samples& samples, const LightPoint& point, const Tile& range,
-                  std::span<const std::uint32_t> among);
+  void collect(const Samples& samples, const LightPoint& point, Tile range);
+  void traceCollected();
 
   // Emitting surfaces, tile by tile.
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
@@ -87,6 +105,8 @@ class BlockLighter {
   void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
   void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,
                    bool corrected);
+  void findOrigins(const Samples& samples, std::uint32_t node);
+  void moveOrigins(const Samples& samples, std::size_t first);
   void flush();
 
   const ShadowTracer& tracer_;
@@ -103,13 +123,24 @@ class BlockLighter {
   ShadowRays rays_;
   std::vector<vec3> shares_;                  // of the light that they let through
   std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
+  std::vector<vec3> origins_;  // of the emitter under way: a point of it for each place
   // Of a light with a size, one a sample:
   std::vector<float> full_;   // weights where nothing is in the way
   std::vector<vec3> seen_;    // weights times shares, of the points that are asked
   std::vector<float> asked_;  // their weights
+  // Samples whose share is not known, place by place of the pattern.
   std::vector<std::uint32_t> unsure_;
-  // Of all lights, one a sample:
+  struct Asked {
+    std::uint16_t place = 0;
+    Tile range;
+  };
+  std::vector<Asked> places_;
+  Samples gathered_;                   // where they are
+  std::vector<std::uint8_t> answers_;  // of each texel
+  // Of all lights, or of the one under way, one a sample:
   std::vector<vec3> sums_;
+  Samples part_;             // of those that are lit again
+  std::vector<bool> relit_;  // texels
 };
 
 }  // namespace lucerna::bake

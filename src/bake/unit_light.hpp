@@ -54,8 +54,7 @@ class UnitLighter {
  private:
   BlockLight lightBlock(const Block& block);
   void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
-  void refine(std::span<const scene::PlacedLight> lights, bool emitters,
-              const std::vector<bool>& which);
+  void refine(std::span<const scene::PlacedLight> lights);
 
   const Plan& plan_;
   BlockLighter lighter_;
@@ -63,7 +62,8 @@ class UnitLighter {
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
   Samples samples_, fineSamples_;
-  std::vector<vec3> texels_, part_, finePart_;
+  std::vector<vec3> texels_, part_;
+  std::vector<UnevenTexel> uneven_;
 };
 
 }  // namespace lucerna::bake
