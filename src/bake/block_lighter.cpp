@@ -37,48 +37,6 @@ bool hasSize(const PlacedLight& light) {
   return light.kind == LightKind::Directional ? light.angle > 0.f : light.radius > 0.f;
 }
 
-// A light as a disc: of a spot light; of a sphere, the one that faces the place; of a directional
-// light, a cone of directions.
-class Disc {
- public:
-  Disc(const PlacedLight& light, vec3 placeW) : light_(light), frame_(axisOf(light, placeW)) {}
-
-  // p: of the unit disc.
-  LightPoint at(vec2 p) const {
-    LightPoint point{.light = light_, .centreW = light_.positionW};
-    point.light.radius = point.light.angle = 0.f;
-    const float squared = std::min(glm::dot(p, p), 1.f);
-    if (light_.kind == LightKind::Directional) {
-      // Uniform in solid angle, and as bright as trace/light_sampling.hpp.
-      const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
-      const float below = squared * (1.f - cosHalf);
-      const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
-      point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
-      point.light.intensity *= 2.f / (1.f + cosHalf);
-      return point;
-    }
-    point.light.positionW += light_.radius * (frame_.x * p.x + frame_.y * p.y);
-    if (light_.kind == LightKind::Point) {
-      point.ahead = light_.radius * std::sqrt(1.f - squared);
-    } else {
-      point.centreW = point.light.positionW;
-    }
-    return point;
-  }
-
- private:
-  static vec3 axisOf(const PlacedLight& light, vec3 placeW) {
-    if (light.kind == LightKind::Spot) return light.directionW;
-    if (light.kind == LightKind::Directional) return -light.directionW;
-    const vec3 to = placeW - light.positionW;
-    const float distance = glm::length(to);
-    return distance > 0.f ? to / distance : vec3(0.f, 1.f, 0.f);
-  }
-
-  const PlacedLight& light_;
-  trace::Frame frame_;
-};
-
 vec2 onCircle(float radius, float turn) {
   return radius * vec2(std::cos(2.f * kPi * turn), std::sin(2.f * kPi * turn));
 }
@@ -98,6 +56,45 @@ vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel) {
 }
 
 }  // namespace
+
+// A light as a disc: of a spot light; of a sphere, the one that faces the place; of a directional
+// light, a cone of directions.
+class BlockLighter::Disc {
+ public:
+  Disc(const PlacedLight& light, vec3 placeW) : light_(light), frame_(axisOf(light, placeW)) {}
+
+  const PlacedLight& light() const { return light_; }
+  // p: of the unit disc.
+  LightPoint at(vec2 p) const {
+    LightPoint point{.light = light_, .centreW = light_.positionW};
+    point.light.radius = point.light.angle = 0.f;
+    const float squared = std::min(glm::dot(p, p), 1.f);
+    if (light_.kind == LightKind::Directional) {
+      // Uniform in solid angle, and as bright as trace/light_sampling.hpp.
+      const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
+      const float below = squared * (1.f - cosHalf);
+      const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
+      point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
+      point.light.intensity *= 2.f / (1.f + cosHalf);
+      return point;
+    }
+    point.light.positionW += light_.radius * (frame_.x * p.x + frame_.y * p.y);
+    if (light_.kind == LightKind::Spot) point.centreW = point.light.positionW;
+    return point;
+  }
+
+ private:
+  static vec3 axisOf(const PlacedLight& light, vec3 placeW) {
+    if (light.kind == LightKind::Spot) return light.directionW;
+    if (light.kind == LightKind::Directional) return -light.directionW;
+    const vec3 to = placeW - light.positionW;
+    const float distance = glm::length(to);
+    return distance > 0.f ? to / distance : vec3(0.f, 1.f, 0.f);
+  }
+
+  const PlacedLight& light_;
+  trace::Frame frame_;
+};
 
 BlockLighter::BlockLighter(const ShadowTracer& tracer, const Occluders& occluders,
                            const Emitters& emitters, const LighterSettings& settings,
@@ -181,6 +178,15 @@ void BlockLighter::shade(const Samples& s, const LightPoint& point, Tile range) 
   }
 }
 
+void BlockLighter::setRay(std::size_t i, vec3 from, vec3 to) {
+  rays_.fromX[i] = from.x;
+  rays_.fromY[i] = from.y;
+  rays_.fromZ[i] = from.z;
+  rays_.toX[i] = to.x;
+  rays_.toY[i] = to.y;
+  rays_.toZ[i] = to.z;
+}
+
 // Appends to lit_ and rays_ the samples of the range that the point may light.
 void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range) {
   const std::size_t first = lit_.size();
@@ -195,12 +201,7 @@ void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range) {
     vec3 from = directional ? to + back : p.light.positionW;
     if (p.ahead > 0.f)
       from += (to - from) * std::min(p.ahead / std::max(glm::distance(to, from), 1e-6f), 0.999f);
-    rays_.fromX[i] = from.x;
-    rays_.fromY[i] = from.y;
-    rays_.fromZ[i] = from.z;
-    rays_.toX[i] = to.x;
-    rays_.toY[i] = to.y;
-    rays_.toZ[i] = to.z;
+    setRay(i, from, to);
   }
 }
 
@@ -246,13 +247,46 @@ void BlockLighter::gather(const Samples& s) {
   }
 }
 
-// One more point for all that are gathered: pointOf(place).
+// As shade() and collect(), of a sphere's point that is seen at p of the unit disc, with weights
+// for all points of it; uniform in solid angle.
+void BlockLighter::collectOfSphere(const Samples& s, const PlacedLight& sphere, vec2 p,
+                                   Tile range) {
+  const std::size_t first = lit_.size();
+  weights_.resize(s.size());
+  rays_.resize(first + range.count);
+  const float squared = std::min(glm::dot(p, p), 1.f);
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+    const vec3 at(s.x[i], s.y[i], s.z[i]), to = sphere.positionW - at;
+    const float distance = std::max(glm::length(to), 1e-6f);
+    const float radius = std::min(sphere.radius, 0.999f * distance);
+    const float ratio = radius / distance;
+    const float cosHalf = std::sqrt(1.f - ratio * ratio);
+    const float below = squared * (1.f - cosHalf);
+    const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
+    const vec3 way = trace::Frame(to / distance).toWorld({scale * p.x, scale * p.y, 1.f - below});
+    weights_[i] = std::max(glm::dot(way, vec3(s.nx[i], s.ny[i], s.nz[i])), 0.f);
+    if (weights_[i] == 0.f) continue;
+    // Where the way meets the sphere.
+    const float along = distance * (1.f - below), miss = distance * scale * std::sqrt(squared);
+    const vec3 from = at + way * (along - std::sqrt(std::max(radius * radius - miss * miss, 0.f)));
+    setRay(lit_.size(), from, at);
+    lit_.push_back(i);
+  }
+  rays_.resize(lit_.size());
+}
+
+// One more point of the light for all that are gathered: pointOf(place) of the unit disc.
 template <typename PointOf>
-void BlockLighter::ask(const PointOf& pointOf) {
+void BlockLighter::ask(const Disc& disc, const PointOf& pointOf) {
   lit_.clear();
   rays_.resize(0);
   for (const Asked& asked : places_) {
-    const LightPoint point = pointOf(asked.place);
+    const vec2 p = pointOf(asked.place);
+    if (disc.light().kind == LightKind::Point) {
+      collectOfSphere(gathered_, disc.light(), p, asked.range);
+      continue;
+    }
+    const LightPoint point = disc.at(p);
     shade(gathered_, point, asked.range);
     collect(gathered_, point, asked.range);
   }
@@ -288,8 +322,8 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
   const int count = settings_.lightSamples;
   const auto askSpiral = [&](int first, int step) {
     for (int i = first; i < count; i += step)
-      ask([&](std::uint16_t place) {
-        return disc.at(spiralPoint(i, count, shiftOf(place, samples.perTexel)));
+      ask(disc, [&](std::uint16_t place) {
+        return spiralPoint(i, count, shiftOf(place, samples.perTexel));
       });
   };
   const auto restart = [&] {
@@ -308,8 +342,8 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
     return;
   }
   for (int i = 0; i < kRimPoints; ++i)
-    ask([&](std::uint16_t) {
-      return disc.at(onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints)));
+    ask(disc, [&](std::uint16_t) {
+      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints));
     });
   dropSure(samples, false);
   if (unsure_.empty()) return;

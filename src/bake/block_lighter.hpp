@@ -76,6 +76,7 @@ class BlockLighter {
 
  private:
   using Tile = Samples::Tile;  // a range of samples
+  class Disc;
 
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
@@ -88,11 +89,14 @@ class BlockLighter {
                     bool clear);
   void gather(const Samples& samples);
   template <typename PointOf>
-  void ask(const PointOf& pointOf);
+  void ask(const Disc& disc, const PointOf& pointOf);
   void dropSure(const Samples& samples, bool byTexel);
   void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
   void shade(const Samples& samples, const LightPoint& point, Tile range);
   void collect(const Samples& samples, const LightPoint& point, Tile range);
+  void collectOfSphere(const Samples& samples, const scene::PlacedLight& sphere, vec2 p,
+                       Tile range);
+  void setRay(std::size_t i, vec3 from, vec3 to);
   void traceCollected();
 
   // Emitting surfaces, tile by tile.
