@@ -21,6 +21,12 @@ float highestAlong(vec3 axis, const Aabb& box) {
   return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
 }
 
+// Of the unit square: what a place of a texel's pattern asks of an emitter. Those of all places
+// spread over it evenly.
+vec2 pointFor(std::uint32_t place, const Samples& samples, std::uint32_t emitter) {
+  return trace::lowDiscrepancyPoint(place, trace::mixed(samples.perTexel, emitter));
+}
+
 float brightness(vec3 color) {
   return color.x + color.y + color.z;
 }
@@ -87,7 +93,7 @@ void BlockLighter::findOrigins(const Samples& samples, std::uint32_t node) {
   if (samples.perTexel == 1) return;
   const std::vector<EmitterNode>& nodes = emitters_.nodes;
   for (std::uint32_t place = 0; place < samples.perTexel; ++place) {
-    vec2 u = trace::lowDiscrepancyPoint(place, trace::mixed(samples.perTexel, node));
+    vec2 u = pointFor(place, samples, node);
     std::uint32_t at = node;
     while (!nodes[at].isCell()) {
       const float left = brightness(nodes[at + 1].emission.intensity),
@@ -150,7 +156,6 @@ void BlockLighter::flush() {
 // nothing is in the way is known.
 void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
                                int split) {
-  const auto seed = static_cast<std::uint32_t>(&cell - emitters_.nodes.data());
   const int count = split * split;
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
@@ -181,17 +186,15 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
           polygonIrradiance(corners, to, normal) * static_cast<float>(count) / (area * correction);
     }
   }
+  const auto seed = static_cast<std::uint32_t>(&cell - emitters_.nodes.data());
   for (int i = 0; i < count; ++i) {
     part.positionW = pointAt(i);
     origins_.clear();
-    for (std::uint32_t place = 0; samples.perTexel > 1 && place < samples.perTexel; ++place) {
-      const vec2 shift =
-          (trace::lowDiscrepancyPoint(
-               place, trace::mixed(samples.perTexel, seed + static_cast<std::uint32_t>(i))) -
-           0.5f) /
-          static_cast<float>(split);
-      origins_.push_back(part.positionW + u * shift.x + v * shift.y);
-    }
+    if (samples.perTexel > 1)
+      for (std::uint32_t place = 0; place < samples.perTexel; ++place) {
+        const vec2 by = pointFor(place, samples, seed + static_cast<std::uint32_t>(i)) - 0.5f;
+        origins_.push_back(part.positionW + (u * by.x + v * by.y) / static_cast<float>(split));
+      }
     addEmission(samples, tile, part, cell.reach, corrected);
   }
 }

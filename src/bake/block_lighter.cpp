@@ -41,6 +41,20 @@ vec2 onCircle(float radius, float turn) {
   return radius * vec2(std::cos(2.f * kPi * turn), std::sin(2.f * kPi * turn));
 }
 
+// Calls what(first, end) for each texel's range of samples.
+template <typename What>
+void forTexels(const Samples& samples, const What& what) {
+  for (std::size_t i = 0; i < samples.size();) {
+    const std::size_t first = i;
+    while (i < samples.size() && samples.texels[i] == samples.texels[first]) ++i;
+    what(first, i);
+  }
+}
+
+float brightness(vec3 color) {
+  return color.x + color.y + color.z;
+}
+
 // The i-th of n points that fill the unit disc evenly, seen along any edge too (Vogel, "A Better
 // Way to Construct the Sunflower Head", 1979). shift: within 0 and 1, outwards by points, and
 // turns.
@@ -79,7 +93,10 @@ class BlockLighter::Disc {
       return point;
     }
     point.light.positionW += light_.radius * (frame_.x * p.x + frame_.y * p.y);
-    if (light_.kind == LightKind::Spot) point.centreW = point.light.positionW;
+    if (light_.kind == LightKind::Point)
+      point.ahead = light_.radius * std::sqrt(1.f - squared);
+    else
+      point.centreW = point.light.positionW;
     return point;
   }
 
@@ -282,7 +299,8 @@ void BlockLighter::ask(const Disc& disc, const PointOf& pointOf) {
   rays_.resize(0);
   for (const Asked& asked : places_) {
     const vec2 p = pointOf(asked.place);
-    if (disc.light().kind == LightKind::Point) {
+    // A texel of one place is content with the disc that faces its tile, which is faster.
+    if (disc.light().kind == LightKind::Point && gathered_.perTexel > 1) {
       collectOfSphere(gathered_, disc.light(), p, asked.range);
       continue;
     }
@@ -419,16 +437,6 @@ void BlockLighter::lightByAllEmitters(const Samples& samples) {
   for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
 }
 
-// Calls what(first, end) for each texel's range of samples.
-template <typename What>
-static void forTexels(const Samples& samples, const What& what) {
-  for (std::size_t i = 0; i < samples.size();) {
-    const std::size_t first = i;
-    while (i < samples.size() && samples.texels[i] == samples.texels[first]) ++i;
-    what(first, i);
-  }
-}
-
 void BlockLighter::addMeans(const Samples& samples, std::vector<vec3>& texels) const {
   forTexels(samples, [&](std::size_t first, std::size_t end) {
     vec3 sum(0.f);
@@ -440,7 +448,6 @@ void BlockLighter::addMeans(const Samples& samples, std::vector<vec3>& texels) c
 // Of one light, which sums_ has: adds the texels' means, and starts sums_ again.
 void BlockLighter::findUneven(const Samples& samples, std::uint32_t light,
                               std::vector<UnevenTexel>& uneven, std::vector<vec3>& texels) {
-  const auto brightness = [&](vec3 v) { return v.x + v.y + v.z; };
   forTexels(samples, [&](std::size_t first, std::size_t end) {
     const auto count = static_cast<float>(end - first);
     vec3 mean(0.f);
@@ -481,15 +488,18 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
     return true;
   }
   if (!found_.empty()) findUneven(samples, UnevenTexel::kEmitters, *uneven, texels);
-  // Against all light of the texel.
+  dropEven(texels, *uneven);
+  return true;
+}
+
+// Those that deviate little, compared with all light of the texel.
+void BlockLighter::dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& uneven) const {
   constexpr float kFaint = 0.01f;  // of the brightest: no texel counts as less
-  const auto brightness = [](vec3 v) { return v.x + v.y + v.z; };
   float most = 0.f;
   for (const vec3 texel : texels) most = std::max(most, brightness(texel));
-  std::erase_if(*uneven, [&](const UnevenTexel& u) {
+  std::erase_if(uneven, [&](const UnevenTexel& u) {
     return u.deviation <= settings_.uneven * std::max(brightness(texels[u.texel]), kFaint * most);
   });
-  return true;
 }
 
 void BlockLighter::relight(const Samples& samples, std::span<const PlacedLight> lights,

@@ -35,7 +35,7 @@ struct LighterSettings {
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   // A texel is uneven where its samples deviate by more than this share of its light.
-  float uneven = 0.1f;
+  float uneven = 0.05f;
   float sceneDiagonal = 1.f;  // m
 };
 
@@ -85,6 +85,7 @@ class BlockLighter {
   void addMeans(const Samples& samples, std::vector<vec3>& texels) const;
   void findUneven(const Samples& samples, std::uint32_t light, std::vector<UnevenTexel>& uneven,
                   std::vector<vec3>& texels);
+  void dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& uneven) const;
   void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
                     bool clear);
   void gather(const Samples& samples);

@@ -131,7 +131,7 @@ void cut(std::vector<Piece>& pieces, const std::array<vec3, 3>& triangle, const 
 void BruteForce::add(Rays& rays, const std::vector<Place>& places, const Emitter& emitter,
                      const Effort& effort, std::uint32_t seed) const {
   constexpr int kDepth = 12;
-  constexpr std::uint32_t kFewest = 16;
+  constexpr std::uint32_t kFewest = 32;
   const auto count = static_cast<std::uint32_t>(places.size());
   const auto& c = emitter.corners;
   const float size =
