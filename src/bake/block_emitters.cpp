@@ -21,12 +21,6 @@ float highestAlong(vec3 axis, const Aabb& box) {
   return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
 }
 
-// Of the unit square: what a place of a texel's pattern asks of an emitter. Those of all places
-// spread over it evenly.
-vec2 pointFor(std::uint32_t place, const Samples& samples, std::uint32_t emitter) {
-  return trace::lowDiscrepancyPoint(place, trace::mixed(samples.perTexel, emitter));
-}
-
 float brightness(vec3 color) {
   return color.x + color.y + color.z;
 }
@@ -86,26 +80,34 @@ void BlockLighter::shadeEmission(const Samples& s, const Emission& e, float reac
   }
 }
 
-// For each place of a texel a point of what the node stands for, by its light: a cell of its tree,
-// found by halves, and a point of that.
-void BlockLighter::findOrigins(const Samples& samples, std::uint32_t node) {
-  origins_.clear();
-  if (samples.perTexel == 1) return;
-  const std::vector<EmitterNode>& nodes = emitters_.nodes;
-  for (std::uint32_t place = 0; place < samples.perTexel; ++place) {
-    vec2 u = pointFor(place, samples, node);
-    std::uint32_t at = node;
-    while (!nodes[at].isCell()) {
-      const float left = brightness(nodes[at + 1].emission.intensity),
-                  share = left / (left + brightness(nodes[nodes[at].right].emission.intensity));
-      const bool isLeft = u.x < share;
-      u.x = isLeft ? u.x / share : (u.x - share) / (1.f - share);
-      at = isLeft ? at + 1 : nodes[at].right;
-    }
-    const EmitterNode& cell = nodes[at];
-    origins_.push_back(cell.emission.positionW + (u.x - 0.5f) * cell.alongU +
-                       (u.y - 0.5f) * cell.alongV);
+// For each place of a texel's pattern a point of the unit square, other ones for every emitter: an
+// even set, moved around by a hash (Cranley and Patterson, "Randomization of Number Theoretic
+// Methods for Multiple Integration", 1976).
+void BlockLighter::findPoints(const Samples& samples, std::uint32_t emitter) {
+  if (pattern_.size() != samples.perTexel) {
+    pattern_.clear();
+    for (std::uint32_t place = 0; place < samples.perTexel; ++place)
+      pattern_.push_back(trace::lowDiscrepancyPoint(place, samples.perTexel));
   }
+  const std::uint32_t hash = trace::mixed(0, emitter);
+  const vec2 by = vec2(hash & 0xffff, hash >> 16) / 65536.f;
+  points_.clear();
+  for (const vec2 p : pattern_) points_.push_back(glm::fract(p + by));
+}
+
+// Of what the node stands for, by its light: a cell of its tree, found by halves, and a point of
+// that.
+vec3 BlockLighter::pointOf(std::uint32_t at, vec2 u) const {
+  const std::vector<EmitterNode>& nodes = emitters_.nodes;
+  while (!nodes[at].isCell()) {
+    const float left = brightness(nodes[at + 1].emission.intensity),
+                share = left / (left + brightness(nodes[nodes[at].right].emission.intensity));
+    const bool isLeft = u.x < share;
+    u.x = isLeft ? u.x / share : (u.x - share) / (1.f - share);
+    at = isLeft ? at + 1 : nodes[at].right;
+  }
+  const EmitterNode& cell = nodes[at];
+  return cell.emission.positionW + (u.x - 0.5f) * cell.alongU + (u.y - 0.5f) * cell.alongV;
 }
 
 // Lets the rays from the first on start at origins_, where these are above the surface that is lit.
@@ -121,9 +123,11 @@ void BlockLighter::moveOrigins(const Samples& s, std::size_t first) {
   }
 }
 
-// corrected: the weights times corrections_.
+// corrected: the weights times corrections_. findOrigins: fills origins_, where a texel has several
+// places.
+template <typename FindOrigins>
 void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
-                               float reach, bool corrected) {
+                               float reach, bool corrected, const FindOrigins& findOrigins) {
   shadeEmission(samples, emission, reach, tile);
   if (corrected)
     for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i)
@@ -131,7 +135,11 @@ void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const E
   const LightPoint point{.light = lightOf(emission, scene_, reach), .centreW = emission.positionW};
   const std::size_t first = lit_.size();
   collect(samples, point, tile);
-  if (!origins_.empty()) moveOrigins(samples, first);
+  if (samples.perTexel > 1 && lit_.size() > first) {
+    origins_.clear();
+    findOrigins();
+    moveOrigins(samples, first);
+  }
   values_.resize(lit_.size());
   for (std::size_t i = first; i < lit_.size(); ++i)
     values_[i] = point.light.intensity * weights_[lit_[i]];
@@ -189,13 +197,12 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   const auto seed = static_cast<std::uint32_t>(&cell - emitters_.nodes.data());
   for (int i = 0; i < count; ++i) {
     part.positionW = pointAt(i);
-    origins_.clear();
-    if (samples.perTexel > 1)
-      for (std::uint32_t place = 0; place < samples.perTexel; ++place) {
-        const vec2 by = pointFor(place, samples, seed + static_cast<std::uint32_t>(i)) - 0.5f;
-        origins_.push_back(part.positionW + (u * by.x + v * by.y) / static_cast<float>(split));
-      }
-    addEmission(samples, tile, part, cell.reach, corrected);
+    addEmission(samples, tile, part, cell.reach, corrected, [&] {
+      findPoints(samples, seed + static_cast<std::uint32_t>(i));
+      for (const vec2 p : points_)
+        origins_.push_back(part.positionW +
+                           (u * (p.x - 0.5f) + v * (p.y - 0.5f)) / static_cast<float>(split));
+    });
   }
 }
 
@@ -207,8 +214,11 @@ void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const E
   if (node.isCell() && wanted > 1.f)
     lightByCell(samples, tile, node, static_cast<int>(std::ceil(std::min(wanted, kMostSplit))));
   else {
-    findOrigins(samples, static_cast<std::uint32_t>(&node - emitters_.nodes.data()));
-    addEmission(samples, tile, node.emission, node.reach, false);
+    const auto at = static_cast<std::uint32_t>(&node - emitters_.nodes.data());
+    addEmission(samples, tile, node.emission, node.reach, false, [&] {
+      findPoints(samples, at);
+      for (const vec2 p : points_) origins_.push_back(pointOf(at, p));
+    });
   }
 }
 

@@ -108,9 +108,11 @@ class BlockLighter {
                    float distance);
   void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, int split);
   void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
+  template <typename FindOrigins>
   void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,
-                   bool corrected);
-  void findOrigins(const Samples& samples, std::uint32_t node);
+                   bool corrected, const FindOrigins& findOrigins);
+  void findPoints(const Samples& samples, std::uint32_t emitter);
+  vec3 pointOf(std::uint32_t node, vec2 u) const;
   void moveOrigins(const Samples& samples, std::size_t first);
   void flush();
 
@@ -128,6 +130,7 @@ class BlockLighter {
   ShadowRays rays_;
   std::vector<vec3> shares_;                  // of the light that they let through
   std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
+  std::vector<vec2> pattern_, points_;        // findPoints()
   std::vector<vec3> origins_;  // of the emitter under way: a point of it for each place
   // Of a light with a size, one a sample:
   std::vector<float> full_;   // weights where nothing is in the way
