@@ -245,6 +245,7 @@ bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) con
 void BlockLighter::gather(const Samples& s) {
   std::ranges::stable_sort(unsure_, {}, [&](std::uint32_t i) { return s.places[i]; });
   places_.clear();
+  gathered_.perTexel = s.perTexel;
   for (auto* list :
        {&gathered_.x, &gathered_.y, &gathered_.z, &gathered_.nx, &gathered_.ny, &gathered_.nz})
     list->clear();
