@@ -66,8 +66,7 @@ class UnitLighter {
   BlockLight lightBlock(const Block& block);
   std::span<const scene::PlacedLight> lightsNear(std::uint32_t group);
   void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
-  void refine(std::span<const scene::PlacedLight> lights, bool emitters,
-              const std::vector<bool>& which);
+  void refine(std::span<const scene::PlacedLight> lights);
 
   const Plan& plan_;
   const LightScene& scene_;
@@ -78,7 +77,8 @@ class UnitLighter {
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
   Samples samples_, fineSamples_;
-  std::vector<vec3> texels_, part_, finePart_;
+  std::vector<vec3> texels_, part_;
+  std::vector<UnevenTexel> uneven_;
 };
 
 }  // namespace lucerna::bake
