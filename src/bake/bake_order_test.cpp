@@ -26,7 +26,7 @@ BakeOrder someOrder() {
   order.settings.engine = Engine::Octree;
   order.settings.pack = {.side = 512, .gap = 3, .mostMaps = 7};
   order.settings.sampling = {
-      .positions = 4, .finePositions = 8, .lightSamples = 64, .emitterSize = 0.1f};
+      .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.1f};
   order.settings.patchTolerance = 0.3f;
   order.settings.sky = vec3(0.1f, 0.2f, 0.7f);
   order.settings.skyDirections = 64;

@@ -7,6 +7,7 @@
 #include "bake/block_lighter.hpp"
 #include "bake/polygon_light.hpp"
 #include "bake/seconds.hpp"
+#include "trace/low_discrepancy.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -20,6 +21,10 @@ float distanceBetween(const Aabb& a, const Aabb& b) {
 // The largest dot(axis, p) of the box's points.
 float highestAlong(vec3 axis, const Aabb& box) {
   return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
+}
+
+float brightness(vec3 color) {
+  return color.x + color.y + color.z;
 }
 
 }  // namespace
@@ -77,16 +82,66 @@ void BlockLighter::shadeEmission(const Samples& s, const Emission& e, float reac
   }
 }
 
-// corrected: the weights times corrections_.
+// For each place of a texel's pattern a point of the unit square, other ones for every seed: an
+// even set, moved around by a hash (Cranley and Patterson, "Randomization of Number Theoretic
+// Methods for Multiple Integration", 1976).
+void BlockLighter::findPoints(const Samples& samples, std::uint32_t seed) {
+  if (pattern_.size() != samples.perTexel) {
+    pattern_.clear();
+    for (std::uint32_t place = 0; place < samples.perTexel; ++place)
+      pattern_.push_back(trace::lowDiscrepancyPoint(place, samples.perTexel));
+  }
+  const std::uint32_t hash = trace::mixed(0, seed);
+  const vec2 by = vec2(hash & 0xffff, hash >> 16) / 65536.f;
+  points_.clear();
+  for (const vec2 p : pattern_) points_.push_back(glm::fract(p + by));
+}
+
+// Of what the node stands for, by its light: a cell of its tree, found by halves, and a point of
+// that.
+vec3 BlockLighter::pointOf(const EmitterNode& node, vec2 u) const {
+  const EmitterNode* at = &node;
+  while (!at->isCell()) {
+    const EmitterNode &left = at[1], &right = emitters_.nodes[at->right];
+    const float toLeft = brightness(left.emission.intensity),
+                share = toLeft / (toLeft + brightness(right.emission.intensity));
+    const bool isLeft = u.x < share;
+    u.x = isLeft ? u.x / share : (u.x - share) / (1.f - share);
+    at = isLeft ? &left : &right;
+  }
+  return at->emission.positionW + (u.x - 0.5f) * at->alongU + (u.y - 0.5f) * at->alongV;
+}
+
+// Lets the rays from the first on start at origins_, where these are above the surface that is lit.
+void BlockLighter::moveOrigins(const Samples& s, std::size_t first) {
+  for (std::size_t i = first; i < lit_.size(); ++i) {
+    const std::uint32_t at = lit_[i];
+    const vec3 from = origins_[s.places[at]];
+    const vec3 to(s.x[at], s.y[at], s.z[at]), normal(s.nx[at], s.ny[at], s.nz[at]);
+    if (glm::dot(from - to, normal) <= liftAt(to)) continue;
+    rays_.fromX[i] = from.x;
+    rays_.fromY[i] = from.y;
+    rays_.fromZ[i] = from.z;
+  }
+}
+
+// corrected: the weights times corrections_. findOrigins: fills origins_, where a texel has several
+// places.
+template <typename FindOrigins>
 void BlockLighter::addEmission(const Samples& samples, const Tile& tile, const Emission& emission,
-                               float reach, bool corrected) {
+                               float reach, bool corrected, const FindOrigins& findOrigins) {
   shadeEmission(samples, emission, reach, tile);
   if (corrected)
     for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i)
       weights_[i] *= corrections_[i];
   const LightPoint point{.light = lightOf(emission, scene_, reach), .centreW = emission.positionW};
   const std::size_t first = lit_.size();
-  collect(samples, point, tile, {});
+  collect(samples, point, tile);
+  if (samples.perTexel > 1 && lit_.size() > first) {
+    origins_.clear();
+    findOrigins();
+    moveOrigins(samples, first);
+  }
   values_.resize(lit_.size());
   for (std::size_t i = first; i < lit_.size(); ++i)
     values_[i] = point.light.intensity * weights_[lit_[i]];
@@ -103,7 +158,7 @@ void BlockLighter::flush() {
 // A cell by a grid of points: they tell what share of it is seen. What all of it gives where
 // nothing is in the way is known.
 void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                               ivec2 split) {
+                               std::uint32_t seed, ivec2 split) {
   const int count = split.x * split.y;
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
@@ -136,37 +191,46 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   }
   for (int i = 0; i < count; ++i) {
     part.positionW = pointAt(i);
-    addEmission(samples, tile, part, cell.reach, corrected);
+    addEmission(samples, tile, part, cell.reach, corrected, [&] {
+      findPoints(samples, seed + static_cast<std::uint32_t>(i));
+      for (const vec2 p : points_) {
+        const vec2 off = (p - 0.5f) / vec2(split);
+        origins_.push_back(part.positionW + u * off.x + v * off.y);
+      }
+    });
   }
 }
 
 // A cell that is too large for a grid is halved first, down to a texel of its own.
 void BlockLighter::lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                                 float distance) {
+                                 std::uint32_t seed, float distance) {
   if (cell.size <= std::max(kMostSplit * settings_.emitterSize * distance, cell.texel)) {
-    lightByNode(samples, tile, cell, distance);
+    lightByNode(samples, tile, cell, seed, distance);
     return;
   }
   for (const float which : {-1.f, 1.f}) {
     const EmitterNode half = halfOf(cell, which);
     const float toHalf = distanceBetween(half.boxW, tile.boundsW);
     if (toHalf < half.reach && mayLight(samples, tile, half))
-      lightByHalves(samples, tile, half, toHalf);
+      lightByHalves(samples, tile, half, trace::mixed(seed, which < 0.f ? 1 : 2), toHalf);
   }
 }
 
-// A node, or a cell that is small enough for its distance: one point.
+// A node, or a cell that is small enough for its distance: one point. seed: as no other has it.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
-                               float distance) {
+                               std::uint32_t seed, float distance) {
   const float most = settings_.emitterSize * std::max(distance, 1e-6f);  // m, of one point's part
   if (!node.isCell() || node.size <= most) {
-    addEmission(samples, tile, node.emission, node.reach, false);
+    addEmission(samples, tile, node.emission, node.reach, false, [&] {
+      findPoints(samples, seed);
+      for (const vec2 p : points_) origins_.push_back(pointOf(node, p));
+    });
     return;
   }
   // Parts that are about square have sides of most / sqrt(2).
   const vec2 wanted =
       vec2(glm::length(node.alongU), glm::length(node.alongV)) * std::sqrt(2.f) / most;
-  lightByCell(samples, tile, node, ivec2(glm::ceil(glm::clamp(wanted, 1.f, kMostSplit))));
+  lightByCell(samples, tile, node, seed, ivec2(glm::ceil(glm::clamp(wanted, 1.f, kMostSplit))));
 }
 
 // found_: the nodes with one direction that may light the block, for all of its tiles.
@@ -208,9 +272,9 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
                                          node.size <= settings_.emitterSize * distance);
     if (isOne) {
       if (node.isCell())
-        lightByHalves(samples, tile, node, distance);
+        lightByHalves(samples, tile, node, at, distance);
       else
-        lightByNode(samples, tile, node, distance);
+        lightByNode(samples, tile, node, at, distance);
       continue;
     }
     stack_.push_back(node.right);
@@ -218,6 +282,11 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
   }
   if (!lit_.empty()) flush();
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
+}
+
+void BlockLighter::lightByAllEmitters(const Samples& samples) {
+  forgetRays();
+  for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
 }
 
 }  // namespace lucerna::bake

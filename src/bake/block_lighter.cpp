@@ -13,9 +13,9 @@ namespace {
 using scene::LightKind;
 using scene::PlacedLight;
 
-// On the rim of a light with a size: if they agree, they stand for all. Of a disc beyond a straight
-// edge that all of them miss there is 1 %; of what shows through a gap it may be all, so whoever
-// has a neighbour that does not agree is asked, too.
+// On the rim of a light with a size: if they agree, they stand for all, for a texel of one place.
+// Of a disc beyond a straight edge that all of them miss there is 1 %; of what shows through a gap
+// it may be all, so whoever has a neighbour that does not agree is asked, too.
 constexpr int kRimPoints = 8;
 
 float distanceTo(const Aabb& box, vec3 p) {
@@ -32,10 +32,10 @@ float ballOf(const PlacedLight& light) {
 BlockLighter::BlockLighter(const ShadowTracer& tracer, const Occluders& occluders,
                            const Emitters& emitters, const LighterSettings& settings,
                            const scene::Scene& scene)
-    : tracer_(tracer),
+    : Lighter(settings),
+      tracer_(tracer),
       occluders_(occluders),
       emitters_(emitters),
-      settings_(settings),
       scene_(scene) {}
 
 bool BlockLighter::mayLight(const Samples& samples, const PlacedLight& light) const {
@@ -111,30 +111,54 @@ void BlockLighter::shade(const Samples& s, const LightPoint& point, Tile range) 
   }
 }
 
-// Appends to lit_ and rays_ the samples of the range that the point may light, of those in `among`
-// (all if it is empty).
-void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range,
-                           std::span<const std::uint32_t> among) {
+void BlockLighter::setRay(std::size_t i, vec3 from, vec3 to) {
+  rays_.fromX[i] = from.x;
+  rays_.fromY[i] = from.y;
+  rays_.fromZ[i] = from.z;
+  rays_.toX[i] = to.x;
+  rays_.toY[i] = to.y;
+  rays_.toZ[i] = to.z;
+}
+
+// Appends to lit_ and rays_ the samples of the range that the point may light.
+void BlockLighter::collect(const Samples& s, const LightPoint& p, Tile range) {
   const std::size_t first = lit_.size();
-  if (among.empty()) {
-    for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
-      if (weights_[i] > 0.f) lit_.push_back(i);
-  } else {
-    for (const std::uint32_t i : among)
-      if (weights_[i] > 0.f) lit_.push_back(i);
-  }
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+    if (weights_[i] > 0.f) lit_.push_back(i);
   rays_.resize(lit_.size());
   for (std::size_t i = first; i < lit_.size(); ++i) {
     const std::size_t at = lit_[i];
     const vec3 to(s.x[at], s.y[at], s.z[at]);
-    const vec3 from = startOf(p, to, settings_.sceneBoxW);
-    rays_.fromX[i] = from.x;
-    rays_.fromY[i] = from.y;
-    rays_.fromZ[i] = from.z;
-    rays_.toX[i] = to.x;
-    rays_.toY[i] = to.y;
-    rays_.toZ[i] = to.z;
+    setRay(i, startOf(p, to, settings_.sceneBoxW), to);
   }
+}
+
+// As shade() and collect(), of a sphere's point that is seen at p of the unit disc, with weights
+// for all points of it; uniform in solid angle.
+void BlockLighter::collectOfSphere(const Samples& s, const PlacedLight& sphere, vec2 p,
+                                   Tile range) {
+  const std::size_t first = lit_.size();
+  weights_.resize(s.size());
+  rays_.resize(first + range.count);
+  const float squared = std::min(glm::dot(p, p), 1.f);
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+    const vec3 at(s.x[i], s.y[i], s.z[i]), to = sphere.positionW - at;
+    const float distance = std::max(glm::length(to), 1e-6f);
+    const float radius = std::min(sphere.radius, 0.999f * distance);
+    const float ratio = radius / distance;
+    const float cosHalf = std::sqrt(1.f - ratio * ratio);
+    const float below = squared * (1.f - cosHalf);
+    const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
+    const vec3 way = trace::Frame(to / distance).toWorld({scale * p.x, scale * p.y, 1.f - below});
+    weights_[i] = std::max(glm::dot(way, vec3(s.nx[i], s.ny[i], s.nz[i])), 0.f);
+    if (weights_[i] == 0.f) continue;
+    // Where the way meets the sphere.
+    const float along = distance * (1.f - below), miss = distance * scale * std::sqrt(squared);
+    const vec3 from = at + way * (along - std::sqrt(std::max(radius * radius - miss * miss, 0.f)));
+    setRay(lit_.size(), from, at);
+    lit_.push_back(i);
+  }
+  rays_.resize(lit_.size());
 }
 
 // Leaves in shares_ what each of lit_ sees.
@@ -161,6 +185,79 @@ bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) con
   return !occluders_.anyIn(shaftFrom(light.positionW, ballOf(light), samples));
 }
 
+// Sorts unsure_ by places, and puts them into gathered_.
+void BlockLighter::gather(const Samples& s) {
+  std::ranges::stable_sort(unsure_, {}, [&](std::uint32_t i) { return s.places[i]; });
+  places_.clear();
+  gathered_.perTexel = s.perTexel;
+  for (auto* list :
+       {&gathered_.x, &gathered_.y, &gathered_.z, &gathered_.nx, &gathered_.ny, &gathered_.nz})
+    list->clear();
+  for (const std::uint32_t i : unsure_) {
+    if (places_.empty() || places_.back().place != s.places[i])
+      places_.push_back(
+          {.place = s.places[i],
+           .range = {
+               .first = static_cast<std::uint32_t>(gathered_.size()), .count = 0, .boundsW = {}}});
+    ++places_.back().range.count;
+    gathered_.x.push_back(s.x[i]);
+    gathered_.y.push_back(s.y[i]);
+    gathered_.z.push_back(s.z[i]);
+    gathered_.nx.push_back(s.nx[i]);
+    gathered_.ny.push_back(s.ny[i]);
+    gathered_.nz.push_back(s.nz[i]);
+  }
+}
+
+// One more point of the light for all that are gathered: pointOf(place) of the unit disc. The
+// answers come when many rays are to be traced, or with countAnswers(): packets are full.
+template <typename PointOf>
+void BlockLighter::ask(const PlacedLight& light, const Disc& disc, const PointOf& pointOf) {
+  const std::size_t first = lit_.size();
+  for (const Asked& asked : places_) {
+    const vec2 p = pointOf(asked.place);
+    // A texel of one place is content with the disc that faces its tile, which is faster.
+    if (light.kind == LightKind::Point && gathered_.perTexel > 1) {
+      collectOfSphere(gathered_, light, p, asked.range);
+      continue;
+    }
+    const LightPoint point = disc.at(p);
+    shade(gathered_, point, asked.range);
+    collect(gathered_, point, asked.range);
+  }
+  for (std::size_t i = first; i < lit_.size(); ++i) given_.push_back(weights_[lit_[i]]);
+  if (lit_.size() >= kMostRays) countAnswers();
+}
+
+// Adds what was asked and not yet traced to seen_ and asked_.
+void BlockLighter::countAnswers() {
+  trace();
+  for (std::size_t i = 0; i < lit_.size(); ++i) {
+    seen_[unsure_[lit_[i]]] += given_[i] * shares_[i];
+    asked_[unsure_[lit_[i]]] += given_[i];
+  }
+  given_.clear();
+  forgetRays();
+}
+
+// Those whose points all see the light, or none; byTexel: the points of all of the texel's samples.
+void BlockLighter::dropSure(const Samples& samples, bool byTexel) {
+  constexpr std::uint8_t kSeen = 1, kBlocked = 2;
+  const auto answer = [&](std::uint32_t i) {
+    if (asked_[i] == 0.f) return kSeen | kBlocked;
+    return (seen_[i] != vec3(0.f) ? kSeen : 0) | (seen_[i] != vec3(asked_[i]) ? kBlocked : 0);
+  };
+  if (!byTexel) {
+    std::erase_if(unsure_, [&](std::uint32_t i) { return answer(i) != (kSeen | kBlocked); });
+    return;
+  }
+  answers_.assign(samples.texelCount, 0);
+  for (const std::uint32_t i : unsure_)
+    answers_[samples.texels[i]] |= static_cast<std::uint8_t>(answer(i));
+  std::erase_if(unsure_,
+                [&](std::uint32_t i) { return answers_[samples.texels[i]] != (kSeen | kBlocked); });
+}
+
 // unsure_: of the tile's samples those that rim points alone were asked for, beside one that sees
 // another part of the light. One sample a texel.
 void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
@@ -183,23 +280,14 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
-  // All points in few lists: packets are full.
-  const auto finish = [&] {
-    trace();
-    for (std::size_t i = 0; i < lit_.size(); ++i) {
-      seen_[lit_[i]] += given_[i] * shares_[i];
-      asked_[lit_[i]] += given_[i];
-    }
-    given_.clear();
-    forgetRays();
-  };
-  const auto ask = [&](vec2 p) {
-    const LightPoint point = disc.at(p);
-    shade(samples, point, tile);
-    const std::size_t first = lit_.size();
-    collect(samples, point, tile, unsure_);
-    for (std::size_t i = first; i < lit_.size(); ++i) given_.push_back(weights_[lit_[i]]);
-    if (lit_.size() >= kMostRays) finish();
+  const int count = settings_.lightSamples;
+  const auto askSpiral = [&](int first, int step) {
+    gather(samples);
+    for (int i = first; !unsure_.empty() && i < count; i += step)
+      ask(light, disc, [&](std::uint16_t place) {
+        return spiralPoint(i, count, shiftOf(place, samples.perTexel));
+      });
+    countAnswers();
   };
   const auto restart = [&] {
     for (const std::uint32_t i : unsure_) {
@@ -210,24 +298,26 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
   given_.clear();
   forgetRays();
   restart();
+  if (samples.perTexel > 1) {
+    askSpiral(0, 2);
+    dropSure(samples, true);
+    askSpiral(1, 2);
+    return;
+  }
+  gather(samples);
   for (int i = 0; i < kRimPoints; ++i)
-    ask(onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints)));
-  finish();
-  std::erase_if(unsure_, [&](std::uint32_t i) {
-    return asked_[i] > 0.f && (seen_[i] == vec3(0.f) || seen_[i] == vec3(asked_[i]));
-  });
-  constexpr std::uint32_t kTexels = 64;  // of a tile
+    ask(light, disc, [&](std::uint16_t) {
+      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints));
+    });
+  countAnswers();
+  dropSure(samples, false);
   fine_.assign(samples.size(), false);
-  while (true) {
+  do {
     restart();
     for (const std::uint32_t i : unsure_) fine_[i] = true;
-    for (int i = 0; !unsure_.empty() && i < settings_.lightSamples; ++i)
-      ask(spiralPoint(i, settings_.lightSamples));
-    finish();
-    if (tile.count > kTexels) return;
+    askSpiral(0, 1);
     findBeside(samples, tile);
-    if (unsure_.empty()) return;
-  }
+  } while (!unsure_.empty());
 }
 
 void BlockLighter::lightBySized(const Samples& samples, const Tile& tile, const PlacedLight& light,
@@ -280,7 +370,7 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
       }
     } else {
       forgetRays();
-      collect(samples, point, all, {});
+      collect(samples, point, all);
       trace();
       for (std::size_t i = 0; i < lit_.size(); ++i)
         sums_[lit_[i]] += light.intensity * weights_[lit_[i]] * shares_[i];
@@ -289,20 +379,38 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
 }
 
+void BlockLighter::lightAgain(const Samples& samples, std::span<const PlacedLight> lights,
+                              std::uint32_t light) {
+  if (light != UnevenTexel::kEmitters) {
+    lightBy(samples, lights[light]);
+  } else {
+    findNodes(samples);
+    lightByAllEmitters(samples);
+  }
+}
+
 bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
-                         std::vector<vec3>& texels) {
+                         std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) {
   found_.clear();
   if (emitters && !emitters_.nodes.empty()) findNodes(samples);
   const auto first = std::ranges::find_if(
       lights, [&](const PlacedLight& light) { return mayLight(samples, light); });
   if (first == lights.end() && found_.empty()) return false;
   sums_.assign(samples.size(), vec3(0.f));
-  for (const PlacedLight& light : lights.subspan(static_cast<std::size_t>(first - lights.begin())))
-    if (mayLight(samples, light)) lightBy(samples, light);
-  forgetRays();
-  if (!found_.empty())
-    for (const Tile& tile : samples.tiles) lightByEmitters(samples, tile);
-  meansOf(samples, texels);
+  texels.assign(samples.texelCount, vec3(0.f));
+  if (uneven) uneven->clear();
+  for (auto i = static_cast<std::uint32_t>(first - lights.begin()); i < lights.size(); ++i) {
+    if (!mayLight(samples, lights[i])) continue;
+    lightBy(samples, lights[i]);
+    if (uneven) findUneven(samples, i, *uneven, texels);
+  }
+  if (!found_.empty()) lightByAllEmitters(samples);
+  if (!uneven) {
+    addMeans(samples, texels);
+    return true;
+  }
+  if (!found_.empty()) findUneven(samples, UnevenTexel::kEmitters, *uneven, texels);
+  dropEven(texels, *uneven);
   return true;
 }
 

@@ -22,22 +22,31 @@ class BlockLighter final : public Lighter {
                const LighterSettings& settings, const scene::Scene& scene);
 
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::vector<vec3>& texels) override;
+             std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) override;
 
  private:
   using Tile = Samples::Tile;                     // a range of samples
   static constexpr std::size_t kMostRays = 4096;  // that gather before they are traced
 
+  void lightAgain(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                  std::uint32_t light) override;
   bool mayLight(const Samples& samples, const scene::PlacedLight& light) const;
   bool isClear(const Samples& samples, const scene::PlacedLight& light) const;
   void lightBy(const Samples& samples, const scene::PlacedLight& light);
   void lightBySized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light,
                     bool clear);
+  void gather(const Samples& samples);
+  template <typename PointOf>
+  void ask(const scene::PlacedLight& light, const Disc& disc, const PointOf& pointOf);
+  void countAnswers();
+  void dropSure(const Samples& samples, bool byTexel);
   void findBeside(const Samples& samples, const Tile& tile);
   void traceSized(const Samples& samples, const Tile& tile, const scene::PlacedLight& light);
   void shade(const Samples& samples, const LightPoint& point, Tile range);
-  void collect(const Samples& samples, const LightPoint& point, Tile range,
-               std::span<const std::uint32_t> among);
+  void collect(const Samples& samples, const LightPoint& point, Tile range);
+  void collectOfSphere(const Samples& samples, const scene::PlacedLight& sphere, vec2 p,
+                       Tile range);
+  void setRay(std::size_t i, vec3 from, vec3 to);
   void trace();
   void forgetRays();
 
@@ -45,20 +54,25 @@ class BlockLighter final : public Lighter {
   bool mayLight(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
   void findNodes(const Samples& samples);
   void lightByEmitters(const Samples& samples, const Tile& tile);
+  void lightByAllEmitters(const Samples& samples);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
-                   float distance);
+                   std::uint32_t seed, float distance);
   void lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                     float distance);
-  void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell, ivec2 split);
+                     std::uint32_t seed, float distance);
+  void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
+                   std::uint32_t seed, ivec2 split);
   void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
+  template <typename FindOrigins>
   void addEmission(const Samples& samples, const Tile& tile, const Emission& emission, float reach,
-                   bool corrected);
+                   bool corrected, const FindOrigins& findOrigins);
+  void findPoints(const Samples& samples, std::uint32_t seed);
+  vec3 pointOf(const EmitterNode& node, vec2 u) const;
+  void moveOrigins(const Samples& samples, std::size_t first);
   void flush();
 
   const ShadowTracer& tracer_;
   const Occluders& occluders_;
   const Emitters& emitters_;
-  LighterSettings settings_;
   const scene::Scene& scene_;
   // Of one point of a light:
   std::vector<float> weights_;      // of its intensity that each sample gets, before shadows
@@ -70,12 +84,22 @@ class BlockLighter final : public Lighter {
   ShadowRays rays_;
   std::vector<vec3> shares_;                  // of the light that they let through
   std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
+  std::vector<vec2> pattern_, points_;        // findPoints()
+  std::vector<vec3> origins_;  // of the emitter under way: a point of it for each place
   // Of a light with a size, one a sample:
   std::vector<float> full_;   // weights where nothing is in the way
   std::vector<vec3> seen_;    // weights times shares, of the points that are asked
   std::vector<float> asked_;  // their weights
+  std::vector<bool> fine_;    // more than rim points were asked
+  // Samples whose share is not known, place by place of the pattern.
   std::vector<std::uint32_t> unsure_;
-  std::vector<bool> fine_;  // more than rim points were asked
+  struct Asked {
+    std::uint16_t place = 0;
+    Tile range;
+  };
+  std::vector<Asked> places_;
+  Samples gathered_;                   // where they are
+  std::vector<std::uint8_t> answers_;  // of each texel
 };
 
 }  // namespace lucerna::bake

@@ -67,6 +67,7 @@ void removeWhere(std::vector<T>& list, const std::vector<bool>& gone) {
 void removeWhere(Samples& s, const std::vector<bool>& gone) {
   for (auto* list : {&s.x, &s.y, &s.z, &s.nx, &s.ny, &s.nz, &s.areas}) removeWhere(*list, gone);
   removeWhere(s.texels, gone);
+  removeWhere(s.places, gone);
   removeWhere(s.triangles, gone);
   removeWhere(s.barycentrics, gone);
   std::uint32_t before = 0;  // of the samples so far, that are gone

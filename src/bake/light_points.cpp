@@ -5,6 +5,8 @@
 
 #include "bake/samples.hpp"
 
+#include "trace/low_discrepancy.hpp"
+
 namespace lucerna::bake {
 namespace {
 
@@ -68,10 +70,14 @@ vec2 onCircle(float radius, float turn) {
   return radius * vec2(std::cos(2.f * kPi * turn), std::sin(2.f * kPi * turn));
 }
 
-vec2 spiralPoint(int i, int n) {
+vec2 spiralPoint(int i, int n, vec2 shift) {
   constexpr float kGolden = 0.381966f;  // of a turn
-  return onCircle(std::sqrt((static_cast<float>(i) + 0.5f) / static_cast<float>(n)),
-                  kGolden * static_cast<float>(i));
+  return onCircle(std::sqrt((static_cast<float>(i) + shift.x) / static_cast<float>(n)),
+                  kGolden * static_cast<float>(i) + shift.y);
+}
+
+vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel) {
+  return perTexel == 1 ? vec2(0.5f, 0.f) : trace::lowDiscrepancyPoint(place, perTexel);
 }
 
 }  // namespace lucerna::bake

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 #include "core/math/bounds.hpp"
 #include "scene/light.hpp"
@@ -49,7 +50,10 @@ class Disc {
 
 vec2 onCircle(float radius, float turn);
 // The i-th of n points that fill the unit disc evenly, seen along any edge too (Vogel, "A Better
-// Way to Construct the Sunflower Head", 1979).
-vec2 spiralPoint(int i, int n);
+// Way to Construct the Sunflower Head", 1979). shift: within 0 and 1, outwards by points, and
+// turns.
+vec2 spiralPoint(int i, int n, vec2 shift);
+// Of each place of a texel's pattern: all points of all places fill the disc evenly too.
+vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel);
 
 }  // namespace lucerna::bake

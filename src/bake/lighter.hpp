@@ -25,13 +25,24 @@ struct LightCounters {
 };
 
 struct LighterSettings {
-  // Points on each light that has a size, where eight on its rim do not agree on what they see; 1:
-  // its middle alone.
+  // Points on each light that has a size, where the first few do not agree on what they see; 1: its
+  // middle alone. Each place of a texel's pattern has points of its own.
   int lightSamples = 16;
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
+  // A texel is uneven where its samples deviate by more than this share of its light.
+  float uneven = 0.05f;
   float sceneDiagonal = 1.f;  // m
   Aabb sceneBoxW;             // of all that may be in the way
+};
+
+// What a texel has got of one light, whose shadow's edge crosses it.
+struct UnevenTexel {
+  static constexpr std::uint32_t kEmitters = 0xffffffffu;
+  std::uint32_t light = 0;  // place in the list; kEmitters: all emitting surfaces
+  std::uint16_t texel = 0;
+  vec3 irradiance{0.f};
+  float deviation = 0.f;  // of its samples' brightness from their mean, root mean square
 };
 
 // One thread's.
@@ -41,20 +52,37 @@ class Lighter {
 
   // The mean irradiance (scene/light.hpp) of each texel of the block, row by row; of emitting
   // surfaces only if `emitters` is set. False, and nothing is written: nothing reaches the block.
+  // uneven: if it is not null, the texels that shadows' edges cross, light by light.
   virtual bool light(const Samples& samples, std::span<const scene::PlacedLight> lights,
-                     bool emitters, std::vector<vec3>& texels) = 0;
+                     bool emitters, std::vector<vec3>& texels,
+                     std::vector<UnevenTexel>* uneven) = 0;
 
-  // Of the block that was lit last, texels whose samples differ by more than this share of their
-  // mean: shadows' edges. As `texels` above.
-  std::vector<bool> unevenTexels(const Samples& samples, float share, std::size_t texels) const;
+  // Puts what these samples get in the place of what those texels have got, each of its light.
+  void relight(const Samples& samples, std::span<const scene::PlacedLight> lights,
+               std::span<const UnevenTexel> uneven, std::vector<vec3>& texels);
 
   LightCounters counters;
 
  protected:
-  // sums_ as texels.
-  void meansOf(const Samples& samples, std::vector<vec3>& texels) const;
+  explicit Lighter(const LighterSettings& settings) : settings_(settings) {}
 
-  std::vector<vec3> sums_;  // of all lights, one a sample
+  // Adds to sums_ what one light of the list, or UnevenTexel::kEmitters, gives other samples than
+  // light() got.
+  virtual void lightAgain(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                          std::uint32_t light) = 0;
+  void addMeans(const Samples& samples, std::vector<vec3>& texels) const;
+  // Of one light, which sums_ has: adds the texels' means, and starts sums_ again.
+  void findUneven(const Samples& samples, std::uint32_t light, std::vector<UnevenTexel>& uneven,
+                  std::vector<vec3>& texels);
+  // Drops those that deviate little, compared with all light of the texel.
+  void dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& uneven) const;
+
+  LighterSettings settings_;
+  std::vector<vec3> sums_;  // of all lights, or of the one under way, one a sample
+
+ private:
+  Samples part_;             // of those that are lit again
+  std::vector<bool> relit_;  // texels
 };
 
 }  // namespace lucerna::bake

@@ -97,6 +97,7 @@ void clear(Samples& samples) {
   for (auto* list : {&samples.x, &samples.y, &samples.z, &samples.nx, &samples.ny, &samples.nz})
     list->clear();
   samples.texels.clear();
+  samples.places.clear();
   samples.triangles.clear();
   samples.barycentrics.clear();
   samples.areas.clear();
@@ -151,6 +152,33 @@ void findBounds(Samples& s, vec3 along) {
 }
 
 }  // namespace
+
+void choose(const Samples& all, const std::vector<bool>& texels, Samples& chosen) {
+  clear(chosen);
+  for (const Samples::Tile& tile : all.tiles) {
+    Samples::Tile part{
+        .first = static_cast<std::uint32_t>(chosen.size()), .count = 0, .boundsW = tile.boundsW};
+    for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+      if (!texels[all.texels[i]]) continue;
+      const auto copy = [i](auto& to, const auto& from) { to.push_back(from[i]); };
+      copy(chosen.x, all.x), copy(chosen.y, all.y), copy(chosen.z, all.z);
+      copy(chosen.nx, all.nx), copy(chosen.ny, all.ny), copy(chosen.nz, all.nz);
+      copy(chosen.texels, all.texels), copy(chosen.places, all.places);
+      copy(chosen.triangles, all.triangles), copy(chosen.barycentrics, all.barycentrics);
+      copy(chosen.areas, all.areas);
+    }
+    part.count = static_cast<std::uint32_t>(chosen.size()) - part.first;
+    if (part.count > 0) chosen.tiles.push_back(part);
+  }
+  chosen.texelCount = all.texelCount;
+  chosen.perTexel = all.perTexel;
+  chosen.texelSize = all.texelSize;
+  chosen.boundsW = all.boundsW;
+  chosen.axis = all.axis;
+  chosen.cosine = all.cosine;
+  chosen.planar = all.planar;
+  chosen.corners = all.corners;
+}
 
 void addBlocks(std::vector<Block>& blocks, const Chart& chart, std::uint32_t index) {
   for (int y = 0; y < chart.size.y; y += kBlockSide)
@@ -226,7 +254,10 @@ void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
   });
 }
 
-void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& samples) const {
+// Of the block's texel, its place if that was found.
+void ChartSampler::emit(std::size_t place, std::uint16_t texel, Samples& samples) const {
+  const Found& found = found_[texel * perTexel() + place];
+  if (found.triangle == Found::kNothing) return;
   const Surface& surface = surfaces_[found.triangle];
   const float second = found.barycentric.x, third = found.barycentric.y;
   const float first = 1.f - second - third;
@@ -244,6 +275,7 @@ void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& sample
   samples.ny.push_back(normal.y);
   samples.nz.push_back(normal.z);
   samples.texels.push_back(texel);
+  samples.places.push_back(static_cast<std::uint16_t>(place));
   samples.triangles.push_back(found.triangle);
   samples.barycentrics.push_back(found.barycentric);
   samples.areas.push_back(found.area > 0.f ? found.area : 1.f / static_cast<float>(perTexel()));
@@ -251,9 +283,7 @@ void ChartSampler::emit(const Found& found, std::uint16_t texel, Samples& sample
 
 void ChartSampler::emitTexel(const Block& block, ivec2 texel, Samples& samples) const {
   const auto index = static_cast<std::size_t>(texel.y * block.size.x + texel.x);
-  for (std::size_t i = 0; i < perTexel(); ++i)
-    if (const Found& found = found_[index * perTexel() + i]; found.triangle != Found::kNothing)
-      emit(found, static_cast<std::uint16_t>(index), samples);
+  for (std::size_t i = 0; i < perTexel(); ++i) emit(i, static_cast<std::uint16_t>(index), samples);
 }
 
 ChartSampler::Steps ChartSampler::stepsOn(std::uint32_t triangle) const {
@@ -311,6 +341,7 @@ void ChartSampler::sample(const Block& block, Samples& samples, const std::vecto
   for (int y = 0; y < block.size.y; y += kTile)
     for (int x = 0; x < block.size.x; x += kTile) emitTile(block, {x, y}, samples);
   samples.texelCount = texels;
+  samples.perTexel = static_cast<std::uint32_t>(perTexel());
   samples.texelSize = 1.f / chart_.density;
   lift(samples);
   findBounds(samples, samples.triangles.empty() ? vec3(0.f) : stepsOn(samples.triangles[0]).x);

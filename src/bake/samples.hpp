@@ -29,6 +29,7 @@ struct Samples {
   std::vector<float> nx, ny, nz;  // unit, the normal that shades
   std::vector<std::uint16_t>
       texels;  // row * Block::size.x + column; samples of one follow each other
+  std::vector<std::uint16_t> places;     // in the texel's pattern, below perTexel
   std::vector<std::uint32_t> triangles;  // of the chart's list
   std::vector<vec2> barycentrics;        // on those: weights of the second and third corner
   std::vector<float> areas;              // texels^2 that each stands for
@@ -39,6 +40,7 @@ struct Samples {
   };
   std::vector<Tile> tiles;     // those that have any
   std::size_t texelCount = 0;  // of the block
+  std::uint32_t perTexel = 1;  // places of the pattern
   float texelSize = 0.f;       // m, of a texel's side in the world
   Aabb boundsW;
   // Bounds of the normals: all lie within the angle of this cosine around the axis. -1: any.
@@ -50,6 +52,9 @@ struct Samples {
 
   std::size_t size() const { return x.size(); }
 };
+
+// Those of the texels that are marked, row by row; of all else, bounds too, what `all` has.
+void choose(const Samples& all, const std::vector<bool>& texels, Samples& chosen);
 
 // m that samples are clear of the surface: some rounding errors of such a place; as much as the
 // reference's rays.
@@ -95,7 +100,7 @@ class ChartSampler {
   void findBorder(const Block& block, std::uint32_t triangle);
   void emitTile(const Block& block, ivec2 corner, Samples& samples) const;
   void emitTexel(const Block& block, ivec2 texel, Samples& samples) const;
-  void emit(const Found& found, std::uint16_t texel, Samples& samples) const;
+  void emit(std::size_t place, std::uint16_t texel, Samples& samples) const;
   void lift(Samples& samples) const;
 
   const Chart& chart_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "bake/seconds.hpp"
 
@@ -51,12 +52,16 @@ std::vector<PlacedLight> cellLights(const Emitters& emitters, const scene::Scene
 
 ThesisLighter::ThesisLighter(const ShadowTracer& tracer, std::span<const PlacedLight> cells,
                              const LighterSettings& settings)
-    : tracer_(tracer), cells_(cells), settings_(settings) {}
+    : Lighter(settings), tracer_(tracer), cells_(cells) {}
 
 void ThesisLighter::sortByTriangle(const Samples& samples) {
+  const auto start = Clock::now();
   order_.resize(samples.size());
   std::iota(order_.begin(), order_.end(), 0u);
-  std::ranges::stable_sort(order_, {}, [&](std::uint32_t i) { return samples.triangles[i]; });
+  std::ranges::stable_sort(order_, {}, [&](std::uint32_t i) {
+    return std::pair(samples.triangles[i], samples.places[i]);
+  });
+  counters.shadingSeconds += secondsSince(start);
 }
 
 void ThesisLighter::flush() {
@@ -102,34 +107,78 @@ void ThesisLighter::lightPart(const Samples& samples, const Part& part,
     }
     const Disc disc(light, part.boundsW.center());
     for (int k = 0; k < points; ++k)
-      lightBy(samples, part, disc.at(spiralPoint(k, points)), 1.f / static_cast<float>(points));
+      lightBy(samples, part, disc.at(spiralPoint(k, points, part.shift)),
+              1.f / static_cast<float>(points));
   }
   if (!emitters) return;
   for (const PlacedLight& cell : cells_)
     if (reaches(cell, part.boundsW)) lightBy(samples, part, middleOf(cell), 1.f);
 }
 
-bool ThesisLighter::light(const Samples& samples, std::span<const PlacedLight> lights,
-                          bool emitters, std::vector<vec3>& texels) {
+void ThesisLighter::lightParts(const Samples& samples, std::span<const PlacedLight> lights,
+                               bool emitters) {
   const auto start = Clock::now();
   const double tracing = counters.tracingSeconds;
-  const std::uint64_t pairs = counters.pairs;
-  sortByTriangle(samples);
-  sums_.assign(samples.size(), vec3(0.f));
+  const auto partOf = [&](std::size_t i) {
+    return std::pair(samples.triangles[order_[i]], samples.places[order_[i]]);
+  };
   for (std::size_t i = 0; i < order_.size();) {
     const std::size_t first = i;
-    Part part;
-    for (; i < order_.size() && samples.triangles[order_[i]] == samples.triangles[order_[first]];
-         ++i)
+    Part part{.samples = {},
+              .shift = shiftOf(samples.places[order_[first]], samples.perTexel),
+              .boundsW = {}};
+    for (; i < order_.size() && partOf(i) == partOf(first); ++i)
       part.boundsW.grow(vec3(samples.x[order_[i]], samples.y[order_[i]], samples.z[order_[i]]));
     part.samples = std::span(order_).subspan(first, i - first);
     lightPart(samples, part, lights, emitters);
   }
   if (!lit_.empty()) flush();
-  const bool any = counters.pairs > pairs;
-  if (any) meansOf(samples, texels);
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);
+}
+
+void ThesisLighter::lightByOne(const Samples& samples, std::span<const PlacedLight> lights,
+                               std::uint32_t light) {
+  const bool emitters = light == UnevenTexel::kEmitters;
+  lightParts(samples, emitters ? lights.first(0) : lights.subspan(light, 1), emitters);
+}
+
+void ThesisLighter::lightAgain(const Samples& samples, std::span<const PlacedLight> lights,
+                               std::uint32_t light) {
+  sortByTriangle(samples);
+  lightByOne(samples, lights, light);
+}
+
+bool ThesisLighter::lightOneByOne(const Samples& samples, std::span<const PlacedLight> lights,
+                                  bool emitters, std::vector<vec3>& texels,
+                                  std::vector<UnevenTexel>& uneven) {
+  bool any = false;
+  const auto add = [&](std::uint32_t light) {
+    const std::uint64_t pairs = counters.pairs;
+    lightByOne(samples, lights, light);
+    if (counters.pairs == pairs) return;
+    if (!any) texels.assign(samples.texelCount, vec3(0.f));
+    any = true;
+    findUneven(samples, light, uneven, texels);
+  };
+  uneven.clear();
+  for (std::uint32_t i = 0; i < lights.size(); ++i) add(i);
+  if (emitters) add(UnevenTexel::kEmitters);
+  if (any) dropEven(texels, uneven);
   return any;
+}
+
+bool ThesisLighter::light(const Samples& samples, std::span<const PlacedLight> lights,
+                          bool emitters, std::vector<vec3>& texels,
+                          std::vector<UnevenTexel>* uneven) {
+  const std::uint64_t pairs = counters.pairs;
+  sortByTriangle(samples);
+  sums_.assign(samples.size(), vec3(0.f));
+  if (uneven) return lightOneByOne(samples, lights, emitters, texels, *uneven);
+  lightParts(samples, lights, emitters);
+  if (counters.pairs == pairs) return false;
+  texels.assign(samples.texelCount, vec3(0.f));
+  addMeans(samples, texels);
+  return true;
 }
 
 }  // namespace lucerna::bake

@@ -20,7 +20,8 @@ std::vector<scene::PlacedLight> cellLights(const Emitters& emitters, const scene
 // Triangle by triangle, light by light and sample by sample: those beyond the light's reach are
 // skipped, the others shaded, and one ray is followed if that gives anything. Of surfaces that
 // shine cells that do not reach the triangle are left out before. A light with a size, which the
-// thesis has none of, is as many lights as LighterSettings::lightSamples. One thread's.
+// thesis has none of, is as many lights as LighterSettings::lightSamples, other ones for each place
+// of a texel. If uneven texels are asked for, lights come first and triangles second. One thread's.
 class ThesisLighter final : public Lighter {
  public:
   // Tracer and cells outlive it.
@@ -28,15 +29,24 @@ class ThesisLighter final : public Lighter {
                 const LighterSettings& settings);
 
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::vector<vec3>& texels) override;
+             std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) override;
 
  private:
-  // Samples of one triangle.
+  // Samples of one triangle, at one place of their texels.
   struct Part {
     std::span<const std::uint32_t> samples;
+    vec2 shift{0.f};  // of the points of lights
     Aabb boundsW;
   };
+  void lightAgain(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                  std::uint32_t light) override;
   void sortByTriangle(const Samples& samples);
+  void lightParts(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                  bool emitters);
+  void lightByOne(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                  std::uint32_t light);
+  bool lightOneByOne(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                     bool emitters, std::vector<vec3>& texels, std::vector<UnevenTexel>& uneven);
   void lightPart(const Samples& samples, const Part& part,
                  std::span<const scene::PlacedLight> lights, bool emitters);
   // share: of its intensity.
@@ -45,8 +55,7 @@ class ThesisLighter final : public Lighter {
 
   const ShadowTracer& tracer_;
   std::span<const scene::PlacedLight> cells_;
-  LighterSettings settings_;
-  std::vector<std::uint32_t> order_;  // samples by triangle
+  std::vector<std::uint32_t> order_;  // samples by triangle and place
   // Of the rays that are to be traced next, in the thesis' order:
   ShadowRays rays_;
   std::vector<std::uint32_t> lit_;  // samples that they lead to

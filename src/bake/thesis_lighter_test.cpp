@@ -88,6 +88,19 @@ TEST(ThesisLighter, LightsWithASizeComeOutAlike) {
   }
 }
 
+// Edges of shadows are lit again by both; what is left is the noise of their points.
+TEST(ThesisLighter, FinalComesOutAlike) {
+  for (const LightKind kind : {LightKind::Point, LightKind::Spot, LightKind::Directional})
+    for (const float size : {0.f, 0.2f}) {
+      scene::Scene scene = yard();
+      scene::Light& light = addOne(scene, kind);
+      light.radius = size;
+      light.angle = 0.5f * size;
+      Plan plan = planOf(scene, {.density = 20.f, .sampling = kFinal});
+      EXPECT_LT(between(plan).rms, 0.00053) << static_cast<int>(kind) << ", size " << size;
+    }
+}
+
 // A lamp of 8 x 8 cells of 5 cm, 2 m above.
 scene::Scene lampOverYard() {
   scene::Scene scene = yard();

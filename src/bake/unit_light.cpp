@@ -174,26 +174,24 @@ bool UnitLighter::lightGroup(std::uint32_t group, std::span<vec3> texels) {
   return shines || !lights.empty();
 }
 
-// Texels that shadows' edges cross are lit once more, from more places.
+// Texels that shadows' edges cross are lit once more, from more places, by the lights that throw
+// them.
 void UnitLighter::addLight(std::span<const scene::PlacedLight> lights, bool emitters,
                            std::span<vec3> texels) {
-  constexpr float kUneven = 0.1f;
-  if (!lighter_->light(samples_, lights, emitters, part_)) return;
-  if (fineSampler_) {
-    const std::vector<bool> uneven = lighter_->unevenTexels(samples_, kUneven, texels.size());
-    if (std::ranges::find(uneven, true) != uneven.end()) refine(lights, emitters, uneven);
-  }
+  if (!lighter_->light(samples_, lights, emitters, part_, fineSampler_ ? &uneven_ : nullptr))
+    return;
+  if (fineSampler_ && !uneven_.empty()) refine(lights);
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i] += part_[i];
 }
 
-void UnitLighter::refine(std::span<const scene::PlacedLight> lights, bool emitters,
-                         const std::vector<bool>& which) {
+void UnitLighter::refine(std::span<const scene::PlacedLight> lights) {
   const auto start = Clock::now();
+  std::vector<bool> which(samples_.texelCount, false);
+  for (const UnevenTexel& u : uneven_) which[u.texel] = true;
   fineSampler_->sample(block_, fineSamples_, which);
   hidden_.remove(fineSamples_, block_.chart);
   samplingSeconds += secondsSince(start);
-  if (!lighter_->light(fineSamples_, lights, emitters, finePart_)) return;
-  for (const std::uint16_t texel : fineSamples_.texels) part_[texel] = finePart_[texel];
+  lighter_->relight(fineSamples_, lights, uneven_, part_);
 }
 
 BlockLight UnitLighter::lightBlock(const Block& block) {

@@ -72,8 +72,7 @@ class UnitLighter {
   BlockLight lightBlock(const Block& block);
   std::span<const scene::PlacedLight> lightsNear(std::uint32_t group);
   void addLight(std::span<const scene::PlacedLight> lights, bool emitters, std::span<vec3> texels);
-  void refine(std::span<const scene::PlacedLight> lights, bool emitters,
-              const std::vector<bool>& which);
+  void refine(std::span<const scene::PlacedLight> lights);
 
   const Plan& plan_;
   const LightScene& scene_;
@@ -85,7 +84,8 @@ class UnitLighter {
   Block block_{.chart = 0xffffffffu};  // whose samples are there
   Samples samples_, fineSamples_;
   std::vector<std::uint8_t> reached_;  // bits of the block: has samples, hidden ones or not
-  std::vector<vec3> texels_, part_, finePart_;
+  std::vector<vec3> texels_, part_;
+  std::vector<UnevenTexel> uneven_;
 };
 
 }  // namespace lucerna::bake
