@@ -76,6 +76,19 @@ void warnOfChangedLights(const scene::Scene& scene, const lightmap::Manifest& ma
       names.front().empty() ? "one without a name " : fmt::format("'{}' ", names.front()));
 }
 
+// A group switches as a whole: what the scene has switched off of one that is on shines, too.
+void warnOfSplitGroups(const scene::Scene& scene, const lightmap::Manifest& manifest) {
+  std::set<std::string> on, off;
+  for (const lightmap::LightEntry& entry : manifest.lights)
+    if (!entry.group.empty()) (scene.lights[entry.light].on ? on : off).insert(entry.group);
+  for (const std::string& group : off)
+    if (on.contains(group))
+      log::warning(
+          "the group '{}' has lights that are off beside others that are on: the lightmap shows "
+          "all of them; wanted groups that are on or off as a whole",
+          group);
+}
+
 // Groups of which the scene has no light on.
 std::vector<std::string> groupsOff(const scene::Scene& scene, const lightmap::Manifest& manifest) {
   std::vector<std::string> off = groupsOf(manifest);
@@ -117,6 +130,7 @@ Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSetti
   LUCERNA_TRY_VOID(checkScene(lightmap, scene));
   LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, settings.lightsOff));
   warnOfChangedLights(scene, lightmap.manifest);
+  warnOfSplitGroups(scene, lightmap.manifest);
   std::vector<std::string> off = groupsOff(scene, lightmap.manifest);
   off.insert(off.end(), settings.lightsOff.begin(), settings.lightsOff.end());
   LUCERNA_TRY(maps, mapsWith(lightmap, off));

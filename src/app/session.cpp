@@ -59,6 +59,7 @@ void warnOfDarkPipeline(const graph::Pipeline& pipeline) {
 // Before the scene goes to the GPU: objects get meshes that know their places in the maps.
 Status takeLightmaps(Session& session) {
   if (session.settings.lightmap.empty()) return {};
+  scene::animate(session.scene, 0.f);  // lights as they stood when they were baked
   LUCERNA_TRY(maps, takeBakedLight(session.scene, session.settings));
   warnOfDarkPipeline(session.pipeline);
   return render::upload(*session.device, session.lightmaps, maps);

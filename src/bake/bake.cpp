@@ -75,7 +75,10 @@ bool holdsOthers(const fs::path& folder) {
   const fs::directory_iterator files(folder, failed);
   return std::any_of(begin(files), end(files), [&](const fs::directory_entry& file) {
     const std::string name = file.path().filename().string();
-    if (name == kWorkFolder) return !fs::is_empty(file.path(), failed);
+    if (name == kWorkFolder) {
+      const fs::directory_iterator work(file.path(), failed);
+      return !std::all_of(begin(work), end(work), isTemporary);
+    }
     return !isTemporary(file.path()) && !(laidOut && isLightmapFile(name));
   });
 }

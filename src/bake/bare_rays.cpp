@@ -20,20 +20,23 @@ struct Packet {
   alignas(64) std::array<int, kPacket> valid{};
 };
 
-// Of the rays from `first` on; lanes behind the end of the list repeat the last.
+// Of the rays from `first` on, from samples to lights as the tracer follows them; lanes behind the
+// end of the list repeat the last.
 Packet packetOf(const ShadowRays& rays, std::size_t first) {
   Packet packet{};
   for (std::size_t i = 0; i < kPacket; ++i) {
     const std::size_t at = std::min(first + i, rays.size() - 1);
     packet.valid[i] = first + i < rays.size() ? -1 : 0;
-    packet.rays.org_x[i] = rays.fromX[at];
-    packet.rays.org_y[i] = rays.fromY[at];
-    packet.rays.org_z[i] = rays.fromZ[at];
-    packet.rays.dir_x[i] = rays.toX[at] - rays.fromX[at];
-    packet.rays.dir_y[i] = rays.toY[at] - rays.fromY[at];
-    packet.rays.dir_z[i] = rays.toZ[at] - rays.fromZ[at];
-    packet.rays.tnear[i] = kClearOfLight;
-    packet.rays.tfar[i] = 1.f - kClearOfSample;
+    const vec3 sample(rays.toX[at], rays.toY[at], rays.toZ[at]);
+    const vec3 toLight = vec3(rays.fromX[at], rays.fromY[at], rays.fromZ[at]) - sample;
+    packet.rays.org_x[i] = sample.x;
+    packet.rays.org_y[i] = sample.y;
+    packet.rays.org_z[i] = sample.z;
+    packet.rays.dir_x[i] = toLight.x;
+    packet.rays.dir_y[i] = toLight.y;
+    packet.rays.dir_z[i] = toLight.z;
+    packet.rays.tnear[i] = clearOfSample(sample, toLight);
+    packet.rays.tfar[i] = 1.f - kClearOfLight;
     packet.rays.mask[i] = ~0u;
   }
   return packet;

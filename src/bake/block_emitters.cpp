@@ -192,7 +192,7 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   for (int i = 0; i < count; ++i) {
     part.positionW = pointAt(i);
     addEmission(samples, tile, part, cell.reach, corrected, [&] {
-      findPoints(samples, seed + static_cast<std::uint32_t>(i));
+      findPoints(samples, trace::mixed(seed, 3u + static_cast<std::uint32_t>(i)));
       for (const vec2 p : points_) {
         const vec2 off = (p - 0.5f) / vec2(split);
         origins_.push_back(part.positionW + u * off.x + v * off.y);

@@ -1,11 +1,9 @@
 #include "bake/block_lighter.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bake/seconds.hpp"
-#include "core/check.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -140,22 +138,12 @@ void BlockLighter::collectOfSphere(const Samples& s, const PlacedLight& sphere, 
   const std::size_t first = lit_.size();
   weights_.resize(s.size());
   rays_.resize(first + range.count);
-  const float squared = std::min(glm::dot(p, p), 1.f);
   for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
-    const vec3 at(s.x[i], s.y[i], s.z[i]), to = sphere.positionW - at;
-    const float distance = std::max(glm::length(to), 1e-6f);
-    const float radius = std::min(sphere.radius, 0.999f * distance);
-    const float ratio = radius / distance;
-    const float cosHalf = std::sqrt(1.f - ratio * ratio);
-    const float below = squared * (1.f - cosHalf);
-    const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
-    const vec3 way = trace::Frame(to / distance).toWorld({scale * p.x, scale * p.y, 1.f - below});
-    weights_[i] = std::max(glm::dot(way, vec3(s.nx[i], s.ny[i], s.nz[i])), 0.f);
+    const vec3 at(s.x[i], s.y[i], s.z[i]);
+    const WayToSphere way = wayToSphere(sphere, at, p);
+    weights_[i] = std::max(glm::dot(way.wayW, vec3(s.nx[i], s.ny[i], s.nz[i])), 0.f);
     if (weights_[i] == 0.f) continue;
-    // Where the way meets the sphere.
-    const float along = distance * (1.f - below), miss = distance * scale * std::sqrt(squared);
-    const vec3 from = at + way * (along - std::sqrt(std::max(radius * radius - miss * miss, 0.f)));
-    setRay(lit_.size(), from, at);
+    setRay(lit_.size(), at + way.wayW * way.length, at);
     lit_.push_back(i);
   }
   rays_.resize(lit_.size());
@@ -216,8 +204,7 @@ void BlockLighter::ask(const PlacedLight& light, const Disc& disc, const PointOf
   const std::size_t first = lit_.size();
   for (const Asked& asked : places_) {
     const vec2 p = pointOf(asked.place);
-    // A texel of one place is content with the disc that faces its tile, which is faster.
-    if (light.kind == LightKind::Point && gathered_.perTexel > 1) {
+    if (bySphere_) {
       collectOfSphere(gathered_, light, p, asked.range);
       continue;
     }
@@ -295,6 +282,10 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
       asked_[i] = 0.f;
     }
   };
+  // Texels of one place are content with the disc that faces their tile, which is faster, unless
+  // the sphere is near.
+  bySphere_ =
+      light.kind == LightKind::Point && (samples.perTexel > 1 || isNearSphere(light, tile.boundsW));
   given_.clear();
   forgetRays();
   restart();

@@ -98,6 +98,7 @@ class BlockLighter final : public Lighter {
     Tile range;
   };
   std::vector<Asked> places_;
+  bool bySphere_ = false;              // a sphere by the cone that each place sees of it
   Samples gathered_;                   // where they are
   std::vector<std::uint8_t> answers_;  // of each texel
 };

@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "bake/samples.hpp"
-
 #include "trace/low_discrepancy.hpp"
 
 namespace lucerna::bake {
@@ -51,8 +50,10 @@ LightPoint Disc::at(vec2 p) const {
   if (light_.kind == LightKind::Directional) {
     // Uniform in solid angle, and as bright as trace/light_sampling.hpp.
     const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
-    const float below = squared * (1.f - cosHalf);
-    const float scale = std::sqrt((1.f - cosHalf) * (2.f - below));  // sine / |p|
+    const float sinHalf = std::sin(0.5f * std::min(light_.angle, kPi));
+    const float most = sinHalf * sinHalf / (1.f + cosHalf);  // 1 - cosHalf, also of small angles
+    const float below = squared * most;
+    const float scale = std::sqrt(most * (2.f - below));  // sine / |p|
     point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
     point.light.intensity *= 2.f / (1.f + cosHalf);
     return point;
@@ -78,6 +79,28 @@ vec2 spiralPoint(int i, int n, vec2 shift) {
 
 vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel) {
   return perTexel == 1 ? vec2(0.5f, 0.f) : trace::lowDiscrepancyPoint(place, perTexel);
+}
+
+WayToSphere wayToSphere(const PlacedLight& sphere, vec3 placeW, vec2 p) {
+  const vec3 to = sphere.positionW - placeW;
+  const float squared = std::min(glm::dot(p, p), 1.f);
+  const float distance = std::max(glm::length(to), 1e-6f);
+  const float radius = std::min(sphere.radius, 0.999f * distance);
+  const float ratio = radius / distance;
+  const float cosHalf = std::sqrt(1.f - ratio * ratio);
+  const float most = ratio * ratio / (1.f + cosHalf);  // 1 - cosHalf, also of small spheres
+  const float below = squared * most;
+  const float scale = std::sqrt(most * (2.f - below));  // sine / |p|
+  const float along = distance * (1.f - below), miss = distance * scale * std::sqrt(squared);
+  return {.wayW = trace::Frame(to / distance).toWorld({scale * p.x, scale * p.y, 1.f - below}),
+          .length = along - std::sqrt(std::max(radius * radius - miss * miss, 0.f)),
+          .brightness = 2.f / (1.f + cosHalf)};
+}
+
+bool isNearSphere(const scene::PlacedLight& light, const Aabb& boxW) {
+  constexpr float kWide = 0.1f;  // radians, about, from the middle of the box to its ends
+  return light.kind == scene::LightKind::Point && light.radius > 0.f &&
+         0.5f * boxW.diagonal() > kWide * glm::distance(boxW.center(), light.positionW);
 }
 
 }  // namespace lucerna::bake

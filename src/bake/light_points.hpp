@@ -56,4 +56,18 @@ vec2 spiralPoint(int i, int n, vec2 shift);
 // Of each place of a texel's pattern: all points of all places fill the disc evenly too.
 vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel);
 
+// From a place to a sphere: a unit vector, and m along it to the surface.
+struct WayToSphere {
+  vec3 wayW{0.f};
+  float length = 0.f;
+  float brightness = 1.f;  // of the sphere's, so that all ways together give what its middle gives
+};
+
+// To what the place sees at p of the unit disc, uniform in solid angle.
+WayToSphere wayToSphere(const scene::PlacedLight& sphere, vec3 placeW, vec2 p);
+
+// Whether a sphere is so near to the box that places in it see different sides of it: the disc that
+// faces the middle of the box will not do for all of them.
+bool isNearSphere(const scene::PlacedLight& light, const Aabb& boxW);
+
 }  // namespace lucerna::bake

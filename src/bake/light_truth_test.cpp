@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "bake/light_scenes.hpp"
+#include "scene/load.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -254,6 +255,26 @@ TEST(LightTruth, ASphereShinesFromItsSurface) {
     return 5. * 2. / (d * d * d);
   });
   EXPECT_LT(e.worst, 1e-3);
+}
+
+// Their lamps are spheres in bulbs of the same size: what faces the middle of a tile nearby is
+// behind the bulb for its ends.
+TEST(LightTruth, LampsInBulbsAreAsBrightAtAllPresets) {
+  auto scene = scene::loadScene("builtin:mirrors");
+  ASSERT_TRUE(scene) << scene.error().message;
+  scene::animate(*scene, 0.f);
+  const auto mean = [&](const Sampling& sampling, Engine engine) {
+    Plan plan = planOf(*scene, {.density = 4.f, .sampling = sampling});
+    plan.settings.engine = engine;
+    double sum = 0.;
+    const auto texels = lightSome(plan, 1);
+    for (const LitTexel& t : texels) sum += t.irradiance.x + t.irradiance.y + t.irradiance.z;
+    return sum / (3. * static_cast<double>(texels.size()));
+  };
+  const double wanted = mean(kFinal, Engine::Embree);
+  EXPECT_GT(wanted, 0.1);
+  EXPECT_NEAR(mean(kStandard, Engine::Embree) / wanted, 1., 0.05);
+  EXPECT_NEAR(mean(kStandard, Engine::Octree) / wanted, 1., 0.05);
 }
 
 }  // namespace

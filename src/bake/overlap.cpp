@@ -60,20 +60,24 @@ vec3 movedCorner(glm::dvec3 v, glm::dvec3 a, glm::dvec3 b, bool moveA, bool move
 }  // namespace
 
 std::vector<vec3> overlapping(const World& world, std::span<const std::uint32_t> triangles) {
-  constexpr double kBent = 0.866;  // cosine
+  constexpr double kBent = 0.866;         // cosine
+  constexpr std::size_t kMostTried = 32;  // triangles at an edge that the others are compared with
   std::vector<std::array<bool, 3>> moves(triangles.size());
   const std::vector<Edge> edges = edgesOf(world, triangles);
+  std::vector<glm::dvec3> across;  // of the triangles at one edge
   for (std::size_t first = 0, end = 0; first < edges.size(); first = end) {
-    while (end < edges.size() && edges[end].ends() == edges[first].ends()) ++end;
+    across.clear();
+    while (end < edges.size() && edges[end].ends() == edges[first].ends()) {
+      across.push_back(inwards(cornersOf(world, triangles[edges[end].triangle]), edges[end].side));
+      ++end;
+    }
+    // As in find_seams: copies of triangles in any number take no more time than that.
+    const std::size_t tried = std::min(end, first + kMostTried);
     for (std::size_t i = first; i < end; ++i)
-      for (std::size_t k = first; k < end; ++k) {
-        if (edges[i].triangle == edges[k].triangle) continue;
-        const auto across = [&](const Edge& e) {
-          return inwards(cornersOf(world, triangles[e.triangle]), e.side);
-        };
-        if (glm::dot(across(edges[i]), across(edges[k])) < -kBent)
+      for (std::size_t k = first; k < tried && !moves[edges[i].triangle][edges[i].side]; ++k)
+        if (edges[i].triangle != edges[k].triangle &&
+            glm::dot(across[i - first], across[k - first]) < -kBent)
           moves[edges[i].triangle][edges[i].side] = true;
-      }
   }
   std::vector<vec3> corners;
   corners.reserve(3 * triangles.size());

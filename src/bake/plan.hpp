@@ -33,7 +33,7 @@ inline constexpr Sampling kPreview{
 inline constexpr Sampling kStandard{
     .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
 inline constexpr Sampling kFinal{
-    .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.1f};
+    .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.05f};
 
 // Of maps, beside their masters.
 enum class Encoding { Rgb9e5, Bc6h, Png };

@@ -7,7 +7,7 @@ namespace lucerna::bake {
 namespace {
 
 // What a change of this program does to the light that is stored raises it.
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 
 void add(ByteWriter& w, const scene::TextureSlot& slot) {
   w(slot.texture);

@@ -97,12 +97,36 @@ void ThesisLighter::lightBy(const Samples& s, const Part& part, const LightPoint
   if (lit_.size() >= kMostRays) flush();
 }
 
+// Each place asks the side that it sees itself.
+void ThesisLighter::lightBySphere(const Samples& samples, const Part& part,
+                                  const PlacedLight& sphere, int points) {
+  LightPoint point{.light = sphere, .centreW = sphere.positionW};
+  point.light.radius = 0.f;
+  for (std::size_t i = 0; i < part.samples.size(); ++i) {
+    const std::uint32_t at = part.samples[i];
+    const vec3 placeW(samples.x[at], samples.y[at], samples.z[at]);
+    const float distance = glm::distance(placeW, sphere.positionW);
+    Part one = part;
+    one.samples = part.samples.subspan(i, 1);
+    for (int k = 0; k < points; ++k) {
+      const WayToSphere way = wayToSphere(sphere, placeW, spiralPoint(k, points, part.shift));
+      point.light.positionW = placeW + way.wayW * distance;
+      point.ahead = distance - way.length;
+      lightBy(samples, one, point, way.brightness / static_cast<float>(points));
+    }
+  }
+}
+
 void ThesisLighter::lightPart(const Samples& samples, const Part& part,
                               std::span<const PlacedLight> lights, bool emitters) {
   for (const PlacedLight& light : lights) {
     const int points = hasSize(light) ? settings_.lightSamples : 1;
     if (points == 1) {
       lightBy(samples, part, middleOf(light), 1.f);
+      continue;
+    }
+    if (isNearSphere(light, part.boundsW)) {
+      lightBySphere(samples, part, light, points);
       continue;
     }
     const Disc disc(light, part.boundsW.center());

@@ -49,6 +49,8 @@ class ThesisLighter final : public Lighter {
                      bool emitters, std::vector<vec3>& texels, std::vector<UnevenTexel>& uneven);
   void lightPart(const Samples& samples, const Part& part,
                  std::span<const scene::PlacedLight> lights, bool emitters);
+  void lightBySphere(const Samples& samples, const Part& part, const scene::PlacedLight& sphere,
+                     int points);
   // share: of its intensity.
   void lightBy(const Samples& samples, const Part& part, const LightPoint& point, float share);
   void flush();

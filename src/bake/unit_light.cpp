@@ -95,7 +95,7 @@ std::vector<std::uint8_t> bitsOf(const Samples& samples) {
 }  // namespace
 
 float storable(float irradiance) {
-  return std::isnan(irradiance) ? 0.f : std::min(irradiance, kLargestHalf);
+  return irradiance > 0.f ? std::min(irradiance, kLargestHalf) : 0.f;
 }
 
 Bytes toBytes(const UnitLight& light) {
