@@ -181,7 +181,7 @@ TEST(BruteForce, DISABLED_Figures) {
                         Case{"builtin:atrium", 8.f, 10, 1000, false, most},
                         Case{"builtin:atrium?kind=point", 8.f, 10, 1000, false, most},
                         Case{"builtin:nightcity", 1.75f, 200, 1000, false, most},
-                        Case{"builtin:nightcity", 1.75f, 2000, 300, true, {.places = 256}}}) {
+                        Case{"builtin:nightcity", 1.75f, 2000, 300, true, {.places = 1024}}}) {
     const scene::Scene scene = sceneOf(c);
     const std::vector<Place> places = choose(scene, c);
     std::vector<double> wanted = truthOf(scene, c, places, 0);
