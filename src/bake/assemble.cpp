@@ -143,7 +143,7 @@ void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const Unit
     std::size_t at = 0;
     for (int y = 0; y < block.size.y; ++y)
       for (int x = 0; x < block.size.x; ++x) {
-        const auto index = static_cast<std::size_t>(y * block.size.x + x);
+        const auto index = static_cast<std::size_t>(y) * block.size.x + x;
         const ivec2 texel = block.corner + ivec2(x, y);
         const bool touched = hasBit(blockLight.touched, index);
         if (!isOf(plan, block.chart, texel)) {

@@ -100,7 +100,7 @@ struct Packet {
     for (std::size_t i = 0; i < kPacket; ++i)
       rays.tnear[i] = clearOfSample({rays.org_x[i], rays.org_y[i], rays.org_z[i]},
                                     {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]});
-    for (std::size_t i = 0; i < kPacket; ++i) rays.tfar[i] = 1.f - kClearOfLight;
+    std::ranges::fill(rays.tfar, 1.f - kClearOfLight);
     for (std::size_t i = 0; i < kPacket; ++i) valid[i] = i >= begin && i < end ? -1 : 0;
   }
   // Of the lanes that took part those that nothing was in the way of take part again. Whether any.

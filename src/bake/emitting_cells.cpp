@@ -209,9 +209,8 @@ class Cutter {
     const std::vector<Part> parts = partsOf(corner, side, among);
     if (parts.empty()) return;
     const bool isFlat = cut_.merged && flatWith(parts, 0, corner, side).size() == parts.size();
-    if (side == 1 && (!cut_.merged || isFlat || !isCoarse(parts, side))) {
-      add(parts, corner, side);
-    } else if (cut_.merged && isFlat && isOne(parts, side)) {
+    const bool isLeast = side == 1 && (!cut_.merged || isFlat || !isCoarse(parts, side));
+    if (isLeast || (cut_.merged && isFlat && isOne(parts, side))) {
       add(parts, corner, side);
     } else if (cut_.merged && !isFlat && isCoarse(parts, side)) {
       cutByPlanes(parts, corner, side);

@@ -27,7 +27,8 @@ class OwnUnwrap : public ::testing::Test {
   void addSquare(vec2 at, vec2 right, vec2 far) {
     scene::Mesh& mesh = scene_.meshes[0];
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const float x = 2.f * static_cast<float>(first / 4);
+    const std::uint32_t before = first / 4;
+    const float x = 2.f * static_cast<float>(before);
     for (const vec3 p : {vec3(x, 0, 0), vec3(x + 1, 0, 0), vec3(x + 1, 0, -1), vec3(x, 0, -1)})
       mesh.positions.push_back(p);
     for (const vec2 uv : {at, at + right, at + right + far, at + far})

@@ -11,6 +11,12 @@
 namespace lucerna::bake {
 namespace {
 
+// In rows of `width`.
+std::size_t indexOf(ivec2 p, int width) {
+  return static_cast<std::size_t>(p.y) * static_cast<std::size_t>(width) +
+         static_cast<std::size_t>(p.x);
+}
+
 using glm::dvec2;
 
 // Texels; neighbours in a tile are neighbours in the list.
@@ -43,8 +49,9 @@ bool isInside(dvec2 weights) {
 // 1994, without jitter).
 dvec2 placeInTexel(std::size_t index, int along) {
   const double side = along;
-  const dvec2 square(static_cast<double>(index % static_cast<std::size_t>(along)),
-                     static_cast<double>(index / static_cast<std::size_t>(along)));
+  const std::size_t column = index % static_cast<std::size_t>(along);
+  const std::size_t row = index / static_cast<std::size_t>(along);
+  const dvec2 square(static_cast<double>(column), static_cast<double>(row));
   return (square + dvec2(square.y + 0.5, side - square.x - 0.5) / side) / side;
 }
 
@@ -210,7 +217,7 @@ ChartSampler::ChartSampler(const World& world, const Chart& chart, int side)
     const Range range = texelsBelow(chart.corners[i], whole);
     for (int y = range.first.y / kBlockSide; y * kBlockSide < range.end.y; ++y)
       for (int x = range.first.x / kBlockSide; x * kBlockSide < range.end.x; ++x)
-        touching_[static_cast<std::size_t>(y * blocksAcross_ + x)].push_back(i);
+        touching_[indexOf({x, y}, blocksAcross_)].push_back(i);
   }
 }
 
@@ -220,7 +227,7 @@ void ChartSampler::findInside(const Block& block, std::uint32_t triangle) {
   const Barycentric barycentric(corners);
   if (barycentric.area2 == 0.) return;
   eachTexelBelow(corners, block, [&](ivec2 p) {
-    const auto texel = static_cast<std::size_t>(p.y * block.size.x + p.x);
+    const auto texel = indexOf(p, block.size.x);
     if (left_[texel]) return;
     for (std::size_t i = 0; i < perTexel(); ++i) {
       Found& found = found_[texel * perTexel() + i];
@@ -240,7 +247,7 @@ void ChartSampler::findBorder(const Block& block, std::uint32_t triangle) {
   const Barycentric barycentric(corners);
   if (barycentric.area2 == 0.) return;
   eachTexelBelow(corners, block, [&](ivec2 p) {
-    const auto texel = static_cast<std::size_t>(p.y * block.size.x + p.x);
+    const auto texel = indexOf(p, block.size.x);
     if (inside_[texel] || left_[texel]) return;
     const dvec2 corner(block.corner + p);
     ClipPolygon polygon(corners);
@@ -282,7 +289,7 @@ void ChartSampler::emit(std::size_t place, std::uint16_t texel, Samples& samples
 }
 
 void ChartSampler::emitTexel(const Block& block, ivec2 texel, Samples& samples) const {
-  const auto index = static_cast<std::size_t>(texel.y * block.size.x + texel.x);
+  const auto index = indexOf(texel, block.size.x);
   for (std::size_t i = 0; i < perTexel(); ++i) emit(i, static_cast<std::uint16_t>(index), samples);
 }
 
@@ -335,7 +342,7 @@ void ChartSampler::sample(const Block& block, Samples& samples, const std::vecto
   left_.resize(texels, true);
   left_.flip();
   const ivec2 place = block.corner / kBlockSide;
-  const auto& triangles = touching_[static_cast<std::size_t>(place.y * blocksAcross_ + place.x)];
+  const auto& triangles = touching_[indexOf(place, blocksAcross_)];
   for (const std::uint32_t triangle : triangles) findInside(block, triangle);
   for (const std::uint32_t triangle : triangles) findBorder(block, triangle);
   for (int y = 0; y < block.size.y; y += kTile)
