@@ -19,8 +19,7 @@ constexpr const char* kMemory =
 constexpr const char* kBakeMemory =
     "out of memory; bake fewer texels (a lower --density), leave out the light of surfaces that "
     "shine (\"bake\": {\"areaLights\": false} in the scene), or close other programs; --dry-run "
-    "says "
-    "what a bake takes";
+    "says what a bake takes";
 
 // Errors go to stderr; with --json the one document on stdout says it too.
 int fail(const Error& fault, bool json) {

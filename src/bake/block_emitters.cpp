@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "bake/block_lighter.hpp"
+#include "bake/brightness.hpp"
 #include "bake/polygon_light.hpp"
 #include "bake/seconds.hpp"
 #include "trace/low_discrepancy.hpp"
@@ -21,10 +22,6 @@ float distanceBetween(const Aabb& a, const Aabb& b) {
 // The largest dot(axis, p) of the box's points.
 float highestAlong(vec3 axis, const Aabb& box) {
   return glm::dot(axis, glm::mix(box.min, box.max, glm::step(vec3(0.f), axis)));
-}
-
-float brightness(vec3 color) {
-  return color.x + color.y + color.z;
 }
 
 }  // namespace

@@ -7,16 +7,13 @@
 #include <map>
 #include <span>
 
+#include "bake/brightness.hpp"
 #include "bake/emission_texture.hpp"
 #include "bake/emitting_cells.hpp"
 #include "core/parallel.hpp"
 
 namespace lucerna::bake {
 namespace {
-
-float brightness(vec3 color) {
-  return color.x + color.y + color.z;
-}
 
 // Bits of x and y in turn.
 std::uint64_t morton(ivec2 p) {

@@ -144,7 +144,19 @@ Brightest brightest(const std::vector<Shown>& shown, const Dark& dark) {
   return result;
 }
 
-class Leaks : public ::testing::TestWithParam<int> {};  // positions along a texel's side
+class Leaks : public ::testing::TestWithParam<int> {  // positions along a texel's side
+ protected:
+  // A wall over the floor that is there, with a lamp on one side: the other is dark.
+  static void expectDarkBehindAThinWall(scene::Scene& s) {
+    addBox(s, {0.31f, -0.5f, -4.5f}, {0.36f, 8.f, 4.5f});
+    addLamp(s, {-1.f, 1.f, 0.f});
+    const Brightest found = brightest(bake(s, GetParam()), [](const Shown& p) {
+      return p.positionW.x > 0.375f && p.positionW.y >= 0.f;
+    });
+    EXPECT_GT(found.all, 1.f);
+    EXPECT_LE(found.dark, kLeak);
+  }
+};
 
 // A floor that goes on below the walls of a closed room with a lamp in it; walls as thick as two
 // texels.
@@ -168,13 +180,7 @@ TEST_P(Leaks, AClosedRoomKeepsItsLight) {
 TEST_P(Leaks, AThinWall) {
   scene::Scene s = scene();
   addSquare(s, {0, 0, 0}, {0, 0, 4}, {4, 0, 0});
-  addBox(s, {0.31f, -0.5f, -4.5f}, {0.36f, 8.f, 4.5f});
-  addLamp(s, {-1.f, 1.f, 0.f});
-  const Brightest found = brightest(bake(s, GetParam()), [](const Shown& p) {
-    return p.positionW.x > 0.375f && p.positionW.y >= 0.f;
-  });
-  EXPECT_GT(found.all, 1.f);
-  EXPECT_LE(found.dark, kLeak);
+  expectDarkBehindAThinWall(s);
 }
 
 // The same where the floor is of two objects that meet below the wall: what is lit and what is dark
@@ -183,13 +189,7 @@ TEST_P(Leaks, AThinWallOnASeam) {
   scene::Scene s = scene();
   for (const float side : {-1.f, 1.f})
     addSquare(s, {0.335f + side * 2.f, 0, 0}, {0, 0, 4}, {2, 0, 0});
-  addBox(s, {0.31f, -0.5f, -4.5f}, {0.36f, 8.f, 4.5f});
-  addLamp(s, {-1.f, 1.f, 0.f});
-  const Brightest found = brightest(bake(s, GetParam()), [](const Shown& p) {
-    return p.positionW.x > 0.375f && p.positionW.y >= 0.f;
-  });
-  EXPECT_GT(found.all, 1.f);
-  EXPECT_LE(found.dark, kLeak);
+  expectDarkBehindAThinWall(s);
 }
 
 // Two rooms in one corner, divided by a wall; the lamp is in the other.

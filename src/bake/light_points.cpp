@@ -9,6 +9,14 @@
 namespace lucerna::bake {
 namespace {
 
+// A unit vector around z, within the cone of whose half angle's cosine 1 lacks `most`; at p of the
+// unit disc, uniform in solid angle.
+vec3 inCone(vec2 p, float most) {
+  const float below = std::min(glm::dot(p, p), 1.f) * most;
+  const float scale = std::sqrt(most * (2.f - below));  // sine / |p|
+  return {scale * p.x, scale * p.y, 1.f - below};
+}
+
 using scene::LightKind;
 using scene::PlacedLight;
 
@@ -52,9 +60,7 @@ LightPoint Disc::at(vec2 p) const {
     const float cosHalf = std::cos(0.5f * std::min(light_.angle, kPi));
     const float sinHalf = std::sin(0.5f * std::min(light_.angle, kPi));
     const float most = sinHalf * sinHalf / (1.f + cosHalf);  // 1 - cosHalf, also of small angles
-    const float below = squared * most;
-    const float scale = std::sqrt(most * (2.f - below));  // sine / |p|
-    point.light.directionW = -frame_.toWorld({scale * p.x, scale * p.y, 1.f - below});
+    point.light.directionW = -frame_.toWorld(inCone(p, most));
     point.light.intensity *= 2.f / (1.f + cosHalf);
     return point;
   }
@@ -83,16 +89,14 @@ vec2 shiftOf(std::uint16_t place, std::uint32_t perTexel) {
 
 WayToSphere wayToSphere(const PlacedLight& sphere, vec3 placeW, vec2 p) {
   const vec3 to = sphere.positionW - placeW;
-  const float squared = std::min(glm::dot(p, p), 1.f);
   const float distance = std::max(glm::length(to), 1e-6f);
   const float radius = std::min(sphere.radius, 0.999f * distance);
   const float ratio = radius / distance;
   const float cosHalf = std::sqrt(1.f - ratio * ratio);
   const float most = ratio * ratio / (1.f + cosHalf);  // 1 - cosHalf, also of small spheres
-  const float below = squared * most;
-  const float scale = std::sqrt(most * (2.f - below));  // sine / |p|
-  const float along = distance * (1.f - below), miss = distance * scale * std::sqrt(squared);
-  return {.wayW = trace::Frame(to / distance).toWorld({scale * p.x, scale * p.y, 1.f - below}),
+  const vec3 way = inCone(p, most);
+  const float along = distance * way.z, miss = distance * glm::length(vec2(way));
+  return {.wayW = trace::Frame(to / distance).toWorld(way),
           .length = along - std::sqrt(std::max(radius * radius - miss * miss, 0.f)),
           .brightness = 2.f / (1.f + cosHalf)};
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/brightness.hpp"
+
 namespace lucerna::bake {
 namespace {
 
@@ -16,10 +18,6 @@ void forTexels(const Samples& samples, const What& what) {
     while (i < samples.size() && samples.texels[i] == samples.texels[first]) ++i;
     what(first, i);
   }
-}
-
-float brightness(vec3 color) {
-  return color.x + color.y + color.z;
 }
 
 }  // namespace

@@ -142,8 +142,7 @@ void addWarnings(Plan& plan) {
   if (dark)
     plan.warnings.push_back(
         "the scene has no lights to bake: the maps will be black; --sky 1 would give it the light "
-        "of an "
-        "even sky");
+        "of an even sky");
 }
 
 }  // namespace

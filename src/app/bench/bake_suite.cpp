@@ -299,9 +299,7 @@ void takeTurns(const SceneRun& run, std::span<const std::function<void()>> turns
 void measureRates(SceneRun& run, const Load& load, const bake::Plan& plan, Bench& bench) {
   std::vector<bake::ShadowRays> lists;
   const std::vector<std::uint32_t> units = record(bench, sampled(run.results.context.quick), lists);
-  const std::string instructions = bake::likeTracer().instructionSet;
-  bake::BareRays bare(plan.world, lists), same(plan.world, lists, {.instructionSet = instructions}),
-      like(plan.world, lists, bake::likeTracer());
+  bake::BareRays bare(plan.world, lists), like(plan.world, lists, bake::likeTracer());
   const auto rays = static_cast<double>(bare.count());
   const auto tracer = bake::makeEmbreeTracer(plan.world);
   const auto lightStage = [&] {
@@ -319,7 +317,6 @@ void measureRates(SceneRun& run, const Load& load, const bake::Plan& plan, Bench
   };
   takeTurns(run, std::vector<std::function<void()>>{
                      [&] { addRate(run, kBarePackets, load, rays, bare.packetSeconds()); },
-                     [&] { addRate(run, kSameInstructions, load, rays, same.packetSeconds()); },
                      [&] { addRate(run, kLikeTracer, load, rays, like.packetSeconds()); },
                      [&] { addRate(run, kBareSingle, load, rays, bare.singleSeconds()); },
                      [&] { addRate(run, kTracer, load, rays, traceSeconds(*tracer, lists)); },

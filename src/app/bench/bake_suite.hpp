@@ -17,14 +17,13 @@ inline const std::string kMasks = "masks", kRectangles = "rectangles";
 
 // How rays are counted: by Embree alone, by the tracer alone, and within the light stage.
 inline const std::string kBarePackets = "Embree, packets of 16",
-                         kSameInstructions = "the same, the tracer's instructions",
                          kLikeTracer = "the same, set as the tracer",
                          kBareSingle = "Embree, ray by ray", kTracer = "the tracer alone",
                          kTracing = "light stage: tracing",
                          kShading = "light stage: tracing and shading",
                          kWhole = "light stage: all of it";
-inline const std::array kHows{kBarePackets, kSameInstructions, kLikeTracer, kBareSingle,
-                              kTracer,      kTracing,          kShading,    kWhole};
+inline const std::array kHows{kBarePackets, kLikeTracer, kBareSingle, kTracer,
+                              kTracing,     kShading,    kWhole};
 
 // The same of the octree's own rays.
 inline const std::string kOctreeBare = "octree's rays: Embree, ray by ray",
