@@ -160,8 +160,12 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
   part.intensity /= static_cast<float>(count);
+  // Of texels of one place: no two in a row or a column of a finer grid, see samples.cpp.
   const auto pointAt = [&](int i) {
-    const vec2 at = (vec2(i % split.x, i / split.x) + 0.5f) / vec2(split) - 0.5f;
+    const vec2 square(i % split.x, i / split.x);
+    const vec2 inSquare =
+        (vec2(square.y, vec2(split).x - square.x - 1.f) + 0.5f) / vec2(split.y, split.x);
+    const vec2 at = (square + (samples.perTexel == 1 ? inSquare : vec2(0.5f))) / vec2(split) - 0.5f;
     return middle + u * at.x + v * at.y;
   };
   const float area = glm::length(glm::cross(u, v));
@@ -198,25 +202,41 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   }
 }
 
+// m: the largest part that one ray stands for at the distance, and at most `most`.
+float BlockLighter::mostOf(float most, float distance) const {
+  return std::min(most, settings_.emitterSize * distance);
+}
+
+// About the brightness of what the middle of the tile gets from the node.
+float BlockLighter::givesTo(const Samples& samples, const Tile& tile,
+                            const EmitterNode& node) const {
+  const vec3 to = node.emission.positionW - tile.boundsW.center();
+  const float squared = glm::dot(to, to) + 0.25f * node.size * node.size;
+  const float distance = std::sqrt(squared);
+  const float sent = std::max(-glm::dot(node.emission.normalW, to) / distance, 0.f);
+  const float got = samples.planar ? std::max(glm::dot(samples.axis, to) / distance, 0.f) : 1.f;
+  return brightness(node.emission.intensity) * sent * got / std::max(squared, 1e-8f);
+}
+
 // A cell that is too large for a grid is halved first, down to a texel of its own.
 void BlockLighter::lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                                 std::uint32_t seed, float distance) {
-  if (cell.size <= std::max(kMostSplit * settings_.emitterSize * distance, cell.texel)) {
-    lightByNode(samples, tile, cell, seed, distance);
+                                 std::uint32_t seed, float most, float distance) {
+  if (cell.size <= std::max(kMostSplit * mostOf(most, distance), cell.texel)) {
+    lightByNode(samples, tile, cell, seed, most, distance);
     return;
   }
   for (const float which : {-1.f, 1.f}) {
     const EmitterNode half = halfOf(cell, which);
     const float toHalf = distanceBetween(half.boxW, tile.boundsW);
     if (toHalf < half.reach && mayLight(samples, tile, half))
-      lightByHalves(samples, tile, half, trace::mixed(seed, which < 0.f ? 1 : 2), toHalf);
+      lightByHalves(samples, tile, half, trace::mixed(seed, which < 0.f ? 1 : 2), most, toHalf);
   }
 }
 
 // A node, or a cell that is small enough for its distance: one point. seed: as no other has it.
 void BlockLighter::lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
-                               std::uint32_t seed, float distance) {
-  const float most = settings_.emitterSize * std::max(distance, 1e-6f);  // m, of one point's part
+                               std::uint32_t seed, float mostOfAll, float distance) {
+  const float most = mostOf(mostOfAll, std::max(distance, 1e-6f));  // m, of one point's part
   if (!node.isCell() || node.size <= most) {
     addEmission(samples, tile, node.emission, node.reach, false, [&] {
       findPoints(samples, seed);
@@ -254,28 +274,64 @@ void BlockLighter::findNodes(const Samples& samples) {
   counters.shadingSeconds += secondsSince(start);
 }
 
-void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
-  const auto start = Clock::now();
-  const double tracing = counters.tracingSeconds;
+// Calls what(node, m to it) for those that together stand for all that may light the tile: from
+// each of the roots, the largest ones of which one ray is enough. most: m, see mostOf().
+template <typename What>
+void BlockLighter::cut(const Samples& samples, const Tile& tile,
+                       std::span<const std::uint32_t> roots, float most, const What& what) {
   const std::vector<EmitterNode>& nodes = emitters_.nodes;
-  stack_ = found_;
+  stack_.assign(roots.begin(), roots.end());
   while (!stack_.empty()) {
     const std::uint32_t at = stack_.back();
     stack_.pop_back();
     const EmitterNode& node = nodes[at];
     const float distance = distanceBetween(node.boxW, tile.boundsW);
     if (distance >= node.reach || !mayLight(samples, tile, node)) continue;
-    const bool isOne = node.isCell() || (node.emission.normalW != vec3(0.f) &&
-                                         node.size <= settings_.emitterSize * distance);
-    if (isOne) {
-      if (node.isCell())
-        lightByHalves(samples, tile, node, at, distance);
-      else
-        lightByNode(samples, tile, node, at, distance);
+    if (node.isCell() ||
+        (node.emission.normalW != vec3(0.f) && node.size <= mostOf(most, distance))) {
+      what(at, distance);
       continue;
     }
     stack_.push_back(node.right);
     stack_.push_back(at + 1);
+  }
+}
+
+// A node that gives more than a share of the tile's light is cut until none does (Walter et al.,
+// "Lightcuts: A Scalable Approach to Illumination", 2005), by what the nodes give where nothing is
+// in the way.
+void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
+  const auto start = Clock::now();
+  const double tracing = counters.tracingSeconds;
+  const auto light = [&](std::uint32_t at, float most, float distance) {
+    const EmitterNode& node = emitters_.nodes[at];
+    if (node.isCell())
+      lightByHalves(samples, tile, node, at, most, distance);
+    else
+      lightByNode(samples, tile, node, at, most, distance);
+  };
+  constexpr float kAny = std::numeric_limits<float>::infinity();
+  if (samples.perTexel > 1 || settings_.mostShare >= 1.f) {
+    cut(samples, tile, found_, kAny,
+        [&](std::uint32_t at, float distance) { light(at, kAny, distance); });
+  } else {
+    near_.clear();
+    float all = 0.f;
+    cut(samples, tile, found_, kAny, [&](std::uint32_t at, float distance) {
+      near_.push_back(
+          {.node = at, .gives = givesTo(samples, tile, emitters_.nodes[at]), .distance = distance});
+      all += near_.back().gives;
+    });
+    for (const Near& n : near_) {
+      const float points = n.gives / (settings_.mostShare * all);
+      if (!(points > 1.f)) {
+        light(n.node, kAny, n.distance);
+        continue;
+      }
+      const float most = emitters_.nodes[n.node].size / std::sqrt(points);
+      cut(samples, tile, std::span(&n.node, 1), most,
+          [&](std::uint32_t at, float distance) { light(at, most, distance); });
+    }
   }
   if (!lit_.empty()) flush();
   counters.shadingSeconds += secondsSince(start) - (counters.tracingSeconds - tracing);

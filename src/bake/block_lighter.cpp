@@ -267,12 +267,16 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
-  const int count = settings_.lightSamples;
+  const int count = lightSamples_;
+  const bool shared = samples.perTexel > 1 && count < settings_.lightSamples;
   const auto askSpiral = [&](int first, int step) {
     gather(samples);
     for (int i = first; !unsure_.empty() && i < count; i += step)
       ask(light, disc, [&](std::uint16_t place) {
-        return spiralPoint(i, count, shiftOf(place, samples.perTexel));
+        // Few points from each place are one spiral of all of them.
+        const auto places = static_cast<int>(samples.perTexel);
+        return shared ? spiralPoint(i * places + place, count * places, vec2(0.5f, 0.f))
+                      : spiralPoint(i, count, shiftOf(place, samples.perTexel));
       });
     countAnswers();
   };
@@ -345,7 +349,7 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   const double tracing = counters.tracingSeconds;
   const bool clear = isClear(samples, light);
   counters.tracingSeconds += secondsSince(start);
-  if (hasSize(light) && settings_.lightSamples > 1) {
+  if (hasSize(light) && lightSamples_ > 1) {
     full_.resize(samples.size());
     seen_.resize(samples.size());
     asked_.resize(samples.size());
@@ -381,7 +385,7 @@ void BlockLighter::lightAgain(const Samples& samples, std::span<const PlacedLigh
 }
 
 bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> lights, bool emitters,
-                         std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) {
+                         std::vector<vec3>& texels, Uneven* uneven) {
   found_.clear();
   if (emitters && !emitters_.nodes.empty()) findNodes(samples);
   const auto first = std::ranges::find_if(
@@ -389,19 +393,23 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
   if (first == lights.end() && found_.empty()) return false;
   sums_.assign(samples.size(), vec3(0.f));
   texels.assign(samples.texelCount, vec3(0.f));
-  if (uneven) uneven->clear();
+  if (uneven) uneven->texels.clear();
   for (auto i = static_cast<std::uint32_t>(first - lights.begin()); i < lights.size(); ++i) {
     if (!mayLight(samples, lights[i])) continue;
     lightBy(samples, lights[i]);
-    if (uneven) findUneven(samples, i, *uneven, texels);
+    if (uneven) findUneven(samples, lights, i, *uneven, texels);
   }
   if (!found_.empty()) lightByAllEmitters(samples);
   if (!uneven) {
     addMeans(samples, texels);
     return true;
   }
-  if (!found_.empty()) findUneven(samples, UnevenTexel::kEmitters, *uneven, texels);
-  dropEven(texels, *uneven);
+  static const bool noE = std::getenv("Q_NOE");
+  if (noE && !found_.empty())
+    addMeans(samples, texels);
+  else if (!found_.empty())
+    findUneven(samples, lights, UnevenTexel::kEmitters, *uneven, texels);
+  dropEven(texels, uneven->texels);
   return true;
 }
 

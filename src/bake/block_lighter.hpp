@@ -22,7 +22,7 @@ class BlockLighter final : public Lighter {
                const LighterSettings& settings, const scene::Scene& scene);
 
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) override;
+             std::vector<vec3>& texels, Uneven* uneven) override;
 
  private:
   using Tile = Samples::Tile;                     // a range of samples
@@ -56,9 +56,14 @@ class BlockLighter final : public Lighter {
   void lightByEmitters(const Samples& samples, const Tile& tile);
   void lightByAllEmitters(const Samples& samples);
   void lightByNode(const Samples& samples, const Tile& tile, const EmitterNode& node,
-                   std::uint32_t seed, float distance);
+                   std::uint32_t seed, float mostOfAll, float distance);
   void lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
-                     std::uint32_t seed, float distance);
+                     std::uint32_t seed, float most, float distance);
+  float mostOf(float most, float distance) const;
+  float givesTo(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
+  template <typename What>
+  void cut(const Samples& samples, const Tile& tile, std::span<const std::uint32_t> roots,
+           float most, const What& what);
   void lightByCell(const Samples& samples, const Tile& tile, const EmitterNode& cell,
                    std::uint32_t seed, ivec2 split);
   void shadeEmission(const Samples& samples, const Emission& emission, float reach, Tile range);
@@ -84,8 +89,13 @@ class BlockLighter final : public Lighter {
   ShadowRays rays_;
   std::vector<vec3> shares_;                  // of the light that they let through
   std::vector<std::uint32_t> stack_, found_;  // nodes of emitters
-  std::vector<vec2> pattern_, points_;        // findPoints()
-  std::vector<vec3> origins_;  // of the emitter under way: a point of it for each place
+  struct Near {
+    std::uint32_t node = 0;
+    float gives = 0.f, distance = 0.f;
+  };
+  std::vector<Near> near_;              // those that may light the tile
+  std::vector<vec2> pattern_, points_;  // findPoints()
+  std::vector<vec3> origins_;           // of the emitter under way: a point of it for each place
   // Of a light with a size, one a sample:
   std::vector<float> full_;   // weights where nothing is in the way
   std::vector<vec3> seen_;    // weights times shares, of the points that are asked

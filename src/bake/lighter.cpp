@@ -30,14 +30,23 @@ void Lighter::addMeans(const Samples& samples, std::vector<vec3>& texels) const 
   });
 }
 
-void Lighter::findUneven(const Samples& samples, std::uint32_t light,
-                         std::vector<UnevenTexel>& uneven, std::vector<vec3>& texels) {
+void Lighter::findUneven(const Samples& samples, std::span<const PlacedLight> lights,
+                         std::uint32_t light, Uneven& uneven, std::vector<vec3>& texels) {
+  addMeans(samples, texels);
+  if (uneven.around)
+    findEdges(samples, lights, light, uneven);
+  else
+    findUnevenPlaces(samples, light, uneven.texels);
+  sums_.assign(samples.size(), vec3(0.f));
+}
+
+// By how much the places of a texel differ.
+void Lighter::findUnevenPlaces(const Samples& samples, std::uint32_t light,
+                               std::vector<UnevenTexel>& uneven) {
   forTexels(samples, [&](std::size_t first, std::size_t end) {
     const auto count = static_cast<float>(end - first);
     vec3 mean(0.f);
     for (std::size_t i = first; i < end; ++i) mean += sums_[i] / count;
-    const std::uint16_t texel = samples.texels[first];
-    texels[texel] += mean;
     float squares = 0.f;
     for (std::size_t i = first; i < end; ++i) {
       const float off = brightness(sums_[i]) - brightness(mean);
@@ -45,10 +54,46 @@ void Lighter::findUneven(const Samples& samples, std::uint32_t light,
     }
     const float deviation = std::sqrt(squares);
     if (deviation > settings_.uneven * brightness(mean))
-      uneven.push_back(
-          {.light = light, .texel = texel, .irradiance = mean, .deviation = deviation});
+      uneven.push_back({.light = light,
+                        .texel = samples.texels[first],
+                        .irradiance = mean,
+                        .deviation = deviation});
   });
-  sums_.assign(samples.size(), vec3(0.f));
+}
+
+// By how much a texel's only place differs from the mean of its neighbours, along either side:
+// nothing where light changes evenly. Each straight edge through a texel lies between its middle
+// and that of one of these four.
+void Lighter::findEdges(const Samples& samples, std::span<const PlacedLight> lights,
+                        std::uint32_t light, Uneven& uneven) {
+  const auto across = static_cast<std::size_t>(samples.across), stride = across + 2;
+  const auto placeOf = [&](std::uint16_t texel) {
+    return (texel / across + 1) * stride + texel % across + 1;
+  };
+  grid_.assign((samples.texelCount / across + 2) * stride, -1.f);
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    grid_[placeOf(samples.texels[i])] = brightness(sums_[i]);
+  if (const Samples& around = *uneven.around; around.size() > 0) {
+    own_.swap(sums_);
+    sums_.assign(around.size(), vec3(0.f));
+    lightAgain(around, lights, light);
+    for (std::size_t i = 0; i < around.size(); ++i) grid_[around.texels[i]] = brightness(sums_[i]);
+    own_.swap(sums_);
+  }
+  const auto bend = [&](std::size_t at, std::size_t step) {
+    const float here = grid_[at], before = grid_[at - step], after = grid_[at + step];
+    const float mean = 0.5f * ((before < 0.f ? here : before) + (after < 0.f ? here : after));
+    return std::abs(here - mean);
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const std::size_t at = placeOf(samples.texels[i]);
+    const float deviation = std::max(bend(at, 1), bend(at, stride));
+    if (deviation > settings_.uneven * grid_[at])
+      uneven.texels.push_back({.light = light,
+                               .texel = samples.texels[i],
+                               .irradiance = sums_[i],
+                               .deviation = deviation});
+  }
 }
 
 void Lighter::dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& uneven) const {
@@ -62,6 +107,7 @@ void Lighter::dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& u
 
 void Lighter::relight(const Samples& samples, std::span<const PlacedLight> lights,
                       std::span<const UnevenTexel> uneven, std::vector<vec3>& texels) {
+  lightSamples_ = settings_.fineLightSamples;
   for (std::size_t i = 0; i < uneven.size();) {
     const std::uint32_t light = uneven[i].light;
     const std::size_t first = i;
@@ -77,6 +123,7 @@ void Lighter::relight(const Samples& samples, std::span<const PlacedLight> light
       if (!relit_[u.texel]) texels[u.texel] -= u.irradiance;
     addMeans(part_, texels);
   }
+  lightSamples_ = settings_.lightSamples;
 }
 
 }  // namespace lucerna::bake

@@ -28,8 +28,11 @@ struct LighterSettings {
   // Points on each light that has a size, where the first few do not agree on what they see; 1: its
   // middle alone. Each place of a texel's pattern has points of its own.
   int lightSamples = 16;
+  int fineLightSamples = 16;  // the same from the places of texels that are lit again
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
+  // Of a texel's light that one ray to an emitting surface stands for, of texels of one place.
+  float mostShare = 1.f;
   // A texel is uneven where its samples deviate by more than this share of its light.
   float uneven = 0.05f;
   float sceneDiagonal = 1.f;  // m
@@ -42,7 +45,13 @@ struct UnevenTexel {
   std::uint32_t light = 0;  // place in the list; kEmitters: all emitting surfaces
   std::uint16_t texel = 0;
   vec3 irradiance{0.f};
-  float deviation = 0.f;  // of its samples' brightness from their mean, root mean square
+  float deviation = 0.f;  // of its samples' brightness from their mean, root mean square; of one
+                          // sample, an estimate
+};
+struct Uneven {
+  const Samples* around =
+      nullptr;  // of the texels beside the block, of which others have one place
+  std::vector<UnevenTexel> texels;  // light by light
 };
 
 // One thread's.
@@ -52,10 +61,9 @@ class Lighter {
 
   // The mean irradiance (scene/light.hpp) of each texel of the block, row by row; of emitting
   // surfaces only if `emitters` is set. False, and nothing is written: nothing reaches the block.
-  // uneven: if it is not null, the texels that shadows' edges cross, light by light.
+  // uneven: if it is not null, finds the texels that shadows' edges cross.
   virtual bool light(const Samples& samples, std::span<const scene::PlacedLight> lights,
-                     bool emitters, std::vector<vec3>& texels,
-                     std::vector<UnevenTexel>* uneven) = 0;
+                     bool emitters, std::vector<vec3>& texels, Uneven* uneven) = 0;
 
   // Puts what these samples get in the place of what those texels have got, each of its light.
   void relight(const Samples& samples, std::span<const scene::PlacedLight> lights,
@@ -64,7 +72,8 @@ class Lighter {
   LightCounters counters;
 
  protected:
-  explicit Lighter(const LighterSettings& settings) : settings_(settings) {}
+  explicit Lighter(const LighterSettings& settings)
+      : settings_(settings), lightSamples_(settings.lightSamples) {}
 
   // Adds to sums_ what one light of the list, or UnevenTexel::kEmitters, gives other samples than
   // light() got.
@@ -72,15 +81,23 @@ class Lighter {
                           std::uint32_t light) = 0;
   void addMeans(const Samples& samples, std::vector<vec3>& texels) const;
   // Of one light, which sums_ has: adds the texels' means, and starts sums_ again.
-  void findUneven(const Samples& samples, std::uint32_t light, std::vector<UnevenTexel>& uneven,
-                  std::vector<vec3>& texels);
+  void findUneven(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                  std::uint32_t light, Uneven& uneven, std::vector<vec3>& texels);
   // Drops those that deviate little, compared with all light of the texel.
   void dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& uneven) const;
 
   LighterSettings settings_;
+  int lightSamples_;        // of what is lit now
   std::vector<vec3> sums_;  // of all lights, or of the one under way, one a sample
 
  private:
+  void findUnevenPlaces(const Samples& samples, std::uint32_t light,
+                        std::vector<UnevenTexel>& uneven);
+  void findEdges(const Samples& samples, std::span<const scene::PlacedLight> lights,
+                 std::uint32_t light, Uneven& uneven);
+
+  std::vector<vec3> own_;    // sums_ of the block, while others are lit
+  std::vector<float> grid_;  // brightness of the texels of the block and around it; < 0: no sample
   Samples part_;             // of those that are lit again
   std::vector<bool> relit_;  // texels
 };

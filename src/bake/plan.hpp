@@ -31,7 +31,7 @@ struct Sampling {
 inline constexpr Sampling kPreview{
     .positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f};
 inline constexpr Sampling kStandard{
-    .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
+    .positions = 1, .finePositions = 3, .lightSamples = 16, .emitterSize = 0.25f};
 inline constexpr Sampling kFinal{
     .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.05f};
 

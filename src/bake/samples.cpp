@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "bake/clip_polygon.hpp"
@@ -178,6 +179,7 @@ void choose(const Samples& all, const std::vector<bool>& texels, Samples& chosen
     if (part.count > 0) chosen.tiles.push_back(part);
   }
   chosen.texelCount = all.texelCount;
+  chosen.across = all.across;
   chosen.perTexel = all.perTexel;
   chosen.texelSize = all.texelSize;
   chosen.boundsW = all.boundsW;
@@ -333,6 +335,31 @@ void ChartSampler::lift(Samples& samples) const {
     }
 }
 
+// Places in the chart's list, in rising order.
+std::vector<std::uint32_t> ChartSampler::touching(const Block& block) const {
+  const ivec2 first = glm::max(block.corner, 0) / kBlockSide;
+  const ivec2 last = (glm::min(block.corner + block.size, chart_.size) - 1) / kBlockSide;
+  if (first == last) return touching_[indexOf(first, blocksAcross_)];
+  std::vector<std::uint32_t> all;
+  for (int y = first.y; y <= last.y; ++y)
+    for (int x = first.x; x <= last.x; ++x)
+      std::ranges::copy(touching_[indexOf({x, y}, blocksAcross_)], std::back_inserter(all));
+  std::ranges::sort(all);
+  const auto again = std::ranges::unique(all);
+  all.erase(again.begin(), again.end());
+  return all;
+}
+
+void ChartSampler::sampleAround(const Block& block, Samples& samples) {
+  clear(samples);
+  if (block.size == chart_.size) return;
+  const Block grown{.chart = block.chart, .corner = block.corner - 1, .size = block.size + 2};
+  std::vector<bool> around(static_cast<std::size_t>(grown.size.x) * grown.size.y, true);
+  for (int y = 1; y <= block.size.y; ++y)
+    std::fill_n(around.begin() + indexOf({1, y}, grown.size.x), block.size.x, false);
+  sample(grown, samples, around);
+}
+
 void ChartSampler::sample(const Block& block, Samples& samples, const std::vector<bool>& only) {
   clear(samples);
   const auto texels = static_cast<std::size_t>(block.size.x) * block.size.y;
@@ -341,13 +368,13 @@ void ChartSampler::sample(const Block& block, Samples& samples, const std::vecto
   left_ = only;
   left_.resize(texels, true);
   left_.flip();
-  const ivec2 place = block.corner / kBlockSide;
-  const auto& triangles = touching_[indexOf(place, blocksAcross_)];
+  const std::vector<std::uint32_t> triangles = touching(block);
   for (const std::uint32_t triangle : triangles) findInside(block, triangle);
   for (const std::uint32_t triangle : triangles) findBorder(block, triangle);
   for (int y = 0; y < block.size.y; y += kTile)
     for (int x = 0; x < block.size.x; x += kTile) emitTile(block, {x, y}, samples);
   samples.texelCount = texels;
+  samples.across = block.size.x;
   samples.perTexel = static_cast<std::uint32_t>(perTexel());
   samples.texelSize = 1.f / chart_.density;
   lift(samples);

@@ -40,6 +40,7 @@ struct Samples {
   };
   std::vector<Tile> tiles;     // those that have any
   std::size_t texelCount = 0;  // of the block
+  int across = 0;              // of them, those of a row
   std::uint32_t perTexel = 1;  // places of the pattern
   float texelSize = 0.f;       // m, of a texel's side in the world
   Aabb boundsW;
@@ -74,6 +75,9 @@ class ChartSampler {
   // The block may be a part of one that addBlocks() gives. only: of its texels, row by row, those
   // that are asked for; empty: all.
   void sample(const Block& block, Samples& samples, const std::vector<bool>& only = {});
+  // Those of the chart's texels that lie around the block, as of a block that is one texel larger
+  // to each side.
+  void sampleAround(const Block& block, Samples& samples);
 
   // Where steps of a texel along the chart's x and y lead on a triangle of its list, m in the
   // world.
@@ -96,6 +100,7 @@ class ChartSampler {
     vec3 flatW{0.f};                           // its own normal, unit
   };
   std::size_t perTexel() const { return static_cast<std::size_t>(side_) * side_; }
+  std::vector<std::uint32_t> touching(const Block& block) const;
   void findInside(const Block& block, std::uint32_t triangle);
   void findBorder(const Block& block, std::uint32_t triangle);
   void emitTile(const Block& block, ivec2 corner, Samples& samples) const;

@@ -120,7 +120,7 @@ void ThesisLighter::lightBySphere(const Samples& samples, const Part& part,
 void ThesisLighter::lightPart(const Samples& samples, const Part& part,
                               std::span<const PlacedLight> lights, bool emitters) {
   for (const PlacedLight& light : lights) {
-    const int points = hasSize(light) ? settings_.lightSamples : 1;
+    const int points = hasSize(light) ? lightSamples_ : 1;
     if (points == 1) {
       lightBy(samples, part, middleOf(light), 1.f);
       continue;
@@ -173,8 +173,7 @@ void ThesisLighter::lightAgain(const Samples& samples, std::span<const PlacedLig
 }
 
 bool ThesisLighter::lightOneByOne(const Samples& samples, std::span<const PlacedLight> lights,
-                                  bool emitters, std::vector<vec3>& texels,
-                                  std::vector<UnevenTexel>& uneven) {
+                                  bool emitters, std::vector<vec3>& texels, Uneven& uneven) {
   bool any = false;
   const auto add = [&](std::uint32_t light) {
     const std::uint64_t pairs = counters.pairs;
@@ -182,18 +181,17 @@ bool ThesisLighter::lightOneByOne(const Samples& samples, std::span<const Placed
     if (counters.pairs == pairs) return;
     if (!any) texels.assign(samples.texelCount, vec3(0.f));
     any = true;
-    findUneven(samples, light, uneven, texels);
+    findUneven(samples, lights, light, uneven, texels);
   };
-  uneven.clear();
+  uneven.texels.clear();
   for (std::uint32_t i = 0; i < lights.size(); ++i) add(i);
   if (emitters) add(UnevenTexel::kEmitters);
-  if (any) dropEven(texels, uneven);
+  if (any) dropEven(texels, uneven.texels);
   return any;
 }
 
 bool ThesisLighter::light(const Samples& samples, std::span<const PlacedLight> lights,
-                          bool emitters, std::vector<vec3>& texels,
-                          std::vector<UnevenTexel>* uneven) {
+                          bool emitters, std::vector<vec3>& texels, Uneven* uneven) {
   const std::uint64_t pairs = counters.pairs;
   sortByTriangle(samples);
   sums_.assign(samples.size(), vec3(0.f));

@@ -29,7 +29,7 @@ class ThesisLighter final : public Lighter {
                 const LighterSettings& settings);
 
   bool light(const Samples& samples, std::span<const scene::PlacedLight> lights, bool emitters,
-             std::vector<vec3>& texels, std::vector<UnevenTexel>* uneven) override;
+             std::vector<vec3>& texels, Uneven* uneven) override;
 
  private:
   // Samples of one triangle, at one place of their texels.
@@ -46,7 +46,7 @@ class ThesisLighter final : public Lighter {
   void lightByOne(const Samples& samples, std::span<const scene::PlacedLight> lights,
                   std::uint32_t light);
   bool lightOneByOne(const Samples& samples, std::span<const scene::PlacedLight> lights,
-                     bool emitters, std::vector<vec3>& texels, std::vector<UnevenTexel>& uneven);
+                     bool emitters, std::vector<vec3>& texels, Uneven& uneven);
   void lightPart(const Samples& samples, const Part& part,
                  std::span<const scene::PlacedLight> lights, bool emitters);
   void lightBySphere(const Samples& samples, const Part& part, const scene::PlacedLight& sphere,

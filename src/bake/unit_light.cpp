@@ -33,8 +33,13 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
 }
 
 std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
-  const LighterSettings settings{.lightSamples = plan.settings.sampling.lightSamples,
-                                 .emitterSize = plan.settings.sampling.emitterSize,
+  const Sampling& sampling = plan.settings.sampling;
+  // Several places share the points that one asks for.
+  const int shared = sampling.positions == 1 ? 4 : 1;
+  const LighterSettings settings{.lightSamples = sampling.lightSamples,
+                                 .fineLightSamples = std::max(sampling.lightSamples / shared, 1),
+                                 .emitterSize = sampling.emitterSize,
+                                 .mostShare = 1.f / static_cast<float>(sampling.lightSamples),
                                  .sceneDiagonal = scene.diagonal,
                                  .sceneBoxW = scene.boxW};
   switch (scene.engine) {
@@ -142,13 +147,21 @@ const Samples& UnitLighter::sample(const Block& block) {
     const Chart& chart = plan_.charts.charts[block.chart];
     const Sampling& sampling = plan_.settings.sampling;
     sampler_.emplace(plan_.world, chart, sampling.positions);
-    if (sampling.finePositions > 0)
+    // The thesis asks no texel again for what its neighbours see.
+    const bool refines = scene_.engine != Engine::Octree || sampling.positions > 1;
+    fineSampler_.reset();
+    if (sampling.finePositions > 0 && refines)
       fineSampler_.emplace(plan_.world, chart, sampling.finePositions);
   }
   block_ = block;
   sampler_->sample(block, samples_);
   reached_ = bitsOf(samples_);
   hidden_.remove(samples_, block.chart);
+  uneven_.around = nullptr;
+  if (fineSampler_ && plan_.settings.sampling.positions == 1) {
+    sampler_->sampleAround(block, samplesAround_);
+    uneven_.around = &samplesAround_;
+  }
   samplingSeconds += secondsSince(start);
   return samples_;
 }
@@ -180,18 +193,18 @@ void UnitLighter::addLight(std::span<const scene::PlacedLight> lights, bool emit
                            std::span<vec3> texels) {
   if (!lighter_->light(samples_, lights, emitters, part_, fineSampler_ ? &uneven_ : nullptr))
     return;
-  if (fineSampler_ && !uneven_.empty()) refine(lights);
+  if (fineSampler_ && !uneven_.texels.empty()) refine(lights);
   for (std::size_t i = 0; i < texels.size(); ++i) texels[i] += part_[i];
 }
 
 void UnitLighter::refine(std::span<const scene::PlacedLight> lights) {
   const auto start = Clock::now();
   std::vector<bool> which(samples_.texelCount, false);
-  for (const UnevenTexel& u : uneven_) which[u.texel] = true;
+  for (const UnevenTexel& u : uneven_.texels) which[u.texel] = true;
   fineSampler_->sample(block_, fineSamples_, which);
   hidden_.remove(fineSamples_, block_.chart);
   samplingSeconds += secondsSince(start);
-  lighter_->relight(fineSamples_, lights, uneven_, part_);
+  lighter_->relight(fineSamples_, lights, uneven_.texels, part_);
 }
 
 BlockLight UnitLighter::lightBlock(const Block& block) {

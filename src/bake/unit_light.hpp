@@ -82,10 +82,10 @@ class UnitLighter {
   HiddenSamples hidden_;
   std::optional<ChartSampler> sampler_, fineSampler_;
   Block block_{.chart = 0xffffffffu};  // whose samples are there
-  Samples samples_, fineSamples_;
+  Samples samples_, samplesAround_, fineSamples_;
   std::vector<std::uint8_t> reached_;  // bits of the block: has samples, hidden ones or not
   std::vector<vec3> texels_, part_;
-  std::vector<UnevenTexel> uneven_;
+  Uneven uneven_;
 };
 
 }  // namespace lucerna::bake
