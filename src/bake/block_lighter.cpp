@@ -404,11 +404,13 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
     addMeans(samples, texels);
     return true;
   }
-  static const bool noE = std::getenv("Q_NOE");
-  if (noE && !found_.empty())
-    addMeans(samples, texels);
-  else if (!found_.empty())
-    findUneven(samples, lights, UnevenTexel::kEmitters, *uneven, texels);
+  if (!found_.empty()) {
+    // Of one place: asking one surface again would ask all of them.
+    if (uneven->around)
+      addMeans(samples, texels);
+    else
+      findUneven(samples, lights, UnevenTexel::kEmitters, *uneven, texels);
+  }
   dropEven(texels, uneven->texels);
   return true;
 }

@@ -194,39 +194,5 @@ TEST(BruteForce, DISABLED_Figures) {
   }
 }
 
-// QUICK
-TEST(BruteForce, DISABLED_Quick) {
-  const Effort most = {.places = 256, .points = 8};
-  for (const Case& c :
-       {Case{"builtin:penumbra", 20.f, 1, 1000, false, most},
-        Case{"builtin:cornell", 30.f, 1, 1000, false, most},
-        Case{"builtin:cornell", 30.f, 1, 1000, true, most},
-        Case{"builtin:atrium", 8.f, 10, 1000, false, most},
-        Case{"builtin:atrium?kind=point", 8.f, 10, 500, false, most},
-        Case{"builtin:nightcity", 1.75f, 200, 1000, false, most},
-        Case{"builtin:nightcity", 1.75f, 2000, 300, true, {.places = 64, .points = 8}}}) {
-    const scene::Scene scene = sceneOf(c);
-    const std::vector<Place> places = choose(scene, c);
-    const std::vector<double> wanted = truthOf(scene, c, places, 0);
-    Sampling sampling = kStandard;
-    if (const char* e = std::getenv("Q_FINE")) sampling.finePositions = std::atoi(e);
-    if (const char* e = std::getenv("Q_ES"))
-      sampling.emitterSize = static_cast<float>(std::atof(e));
-    print(c, "standard", compare(scene, c, sampling, places, wanted));
-    auto light = baked(scene, c, sampling, false);
-    std::vector<std::tuple<double, double, double, Place>> worst;
-    for (std::size_t i = 0; i < places.size(); ++i)
-      worst.push_back(
-          {-std::abs(light[places[i]] - wanted[i]), light[places[i]], wanted[i], places[i]});
-    std::ranges::sort(worst);
-    if (std::getenv("Q_W"))
-      for (int i = 0; i < 12; ++i)
-        fmt::print("  found {:.4f} wanted {:.4f} chart {} {} {}\n", std::get<1>(worst[i]),
-                   std::get<2>(worst[i]), std::get<0>(std::get<3>(worst[i])),
-                   std::get<1>(std::get<3>(worst[i])), std::get<2>(std::get<3>(worst[i])));
-    std::fflush(stdout);
-  }
-}
-
 }  // namespace
 }  // namespace lucerna::bake

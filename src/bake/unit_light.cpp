@@ -35,7 +35,7 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
 std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
   const Sampling& sampling = plan.settings.sampling;
   // Several places share the points that one asks for.
-  const int shared = sampling.positions == 1 ? 4 : 1;
+  const int shared = sampling.positions == 1 ? 2 : 1;
   const LighterSettings settings{.lightSamples = sampling.lightSamples,
                                  .fineLightSamples = std::max(sampling.lightSamples / shared, 1),
                                  .emitterSize = sampling.emitterSize,
