@@ -62,7 +62,8 @@ struct Manifest {
 std::vector<FileEntry> filesOf(const Manifest& manifest);
 
 std::string toJson(const Manifest& manifest);
-// Errors (ErrorKind::Input): every fault, one a line. Names of files stay within the folder.
+// Errors (ErrorKind::Input): is no lightmap's, or of another version, or its hash is wrong; else
+// every fault, one a line. Names of files stay within the folder.
 Result<Manifest> manifestFrom(std::string_view text, const std::string& name);
 
 std::string hashText16(std::uint64_t hash);
