@@ -9,6 +9,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/text.hpp"
+
 namespace lucerna::bake {
 namespace {
 
@@ -136,10 +138,8 @@ std::vector<std::uint32_t> packingOrder(std::span<const ivec2> sizes) {
   return order;
 }
 
-double texelsOf(std::span<const ivec2> sizes) {
-  double texels = 0;
-  for (const ivec2 size : sizes) texels += static_cast<double>(size.x) * size.y;
-  return texels;
+double withGap(ivec2 size, int gap) {
+  return (static_cast<double>(size.x) + gap) * (static_cast<double>(size.y) + gap);
 }
 
 }  // namespace
@@ -166,14 +166,12 @@ Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings) {
   return {};
 }
 
-Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings) {
-  constexpr double kFilled = 0.85;  // of the maps, about
-  const double factor =
-      std::sqrt(kFilled * settings.mostMaps * settings.side * settings.side / texels);
-  return error(ErrorKind::Input,
-               "{} charts need more than {} maps of {} x {} texels; a texel density of about "
-               "{:.3g} of this one makes them fit, or more or larger maps do",
-               charts, settings.mostMaps, settings.side, settings.side, factor);
+Error tooManyMaps(std::size_t charts, double all, double taken, const PackSettings& settings) {
+  const double needed = std::max(std::ceil(settings.mostMaps * all / taken),
+                                 static_cast<double>(settings.mostMaps) + 1.);
+  return error(ErrorKind::Usage,
+               "{} need about {:.0f} maps of {} x {} texels, and --most-maps allows {}",
+               counted(charts, "chart"), needed, settings.side, settings.side, settings.mostMaps);
 }
 
 Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings) {
@@ -181,6 +179,8 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
   Packing packing;
   packing.places.resize(sizes.size());
   std::vector<Skyline> maps;
+  double all = 0., taken = 0.;
+  for (const ivec2 size : sizes) all += withGap(size, settings.gap);
   for (const std::uint32_t index : packingOrder(sizes)) {
     const ivec2 size = sizes[index] + settings.gap;
     std::optional<Spot> spot;
@@ -190,13 +190,14 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
       --map;
     } else {
       if (static_cast<int>(maps.size()) == settings.mostMaps)
-        return tooManyMaps(sizes.size(), texelsOf(sizes), settings);
+        return tooManyMaps(sizes.size(), all, taken, settings);
       maps.emplace_back(settings.side + settings.gap);
       spot = maps[map].find(size);
     }
     packing.places[index] = {.map = static_cast<int>(map),
                              .corner = maps[map].place(*spot, size),
                              .turned = spot->turned};
+    taken += withGap(sizes[index], settings.gap);
   }
   packing.maps = static_cast<int>(maps.size());
   return packing;

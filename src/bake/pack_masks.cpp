@@ -102,10 +102,9 @@ class Maps {
   std::vector<FreeSquares> maps_;
 };
 
-double texelsOf(std::span<const TexelMask> masks) {
-  double texels = 0;
-  for (const TexelMask& mask : masks) texels += static_cast<double>(mask.count());
-  return texels;
+double withGap(const TexelMask& mask, int gap) {
+  return static_cast<double>(mask.count()) +
+         static_cast<double>(gap) * (mask.size().x + mask.size().y);
 }
 
 }  // namespace
@@ -119,6 +118,8 @@ Result<Packing> packMasks(std::span<const TexelMask> masks, const PackSettings& 
   Maps maps(settings);
   Shape shape;
   const TexelMask* last = nullptr;
+  double all = 0., taken = 0.;
+  for (const TexelMask& mask : masks) all += withGap(mask, settings.gap);
   Progress progress("packing charts", masks.size());
   for (const std::uint32_t index : packingOrder(masks)) {
     LUCERNA_TRY_VOID(checkGoesOn());
@@ -127,12 +128,12 @@ Result<Packing> packMasks(std::span<const TexelMask> masks, const PackSettings& 
     last = &masks[index];
     auto place = maps.place(shape);
     if (!place) {
-      if (maps.count() == settings.mostMaps)
-        return tooManyMaps(masks.size(), texelsOf(masks), settings);
+      if (maps.count() == settings.mostMaps) return tooManyMaps(masks.size(), all, taken, settings);
       maps.add();
       place = maps.place(shape);
     }
     packing.places[index] = *place;
+    taken += withGap(masks[index], settings.gap);
   }
   packing.maps = maps.count();
   return packing;

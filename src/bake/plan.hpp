@@ -50,8 +50,8 @@ struct BakeSettings {
   vec3 sky{0.f};  // radiance of all directions that meet nothing
   int skyDirections = 256;
   std::vector<std::string> groups;  // of lights that are baked; empty: all
-  // By how much a patch may differ from its light: brightness of a white surface; absent: 1/1024 of
-  // what shows as white at the scene's exposure.
+  // By how much a patch may differ from its light: brightness of a white surface before exposure;
+  // absent: 1/1024 of what shows as white at the scene's exposure.
   std::optional<float> patchTolerance;
   Engine engine = Engine::Embree;
   std::vector<Encoding> encodings;
@@ -75,14 +75,15 @@ struct Plan {
   std::uint64_t hash = 0;          // of everything that the light depends on
   std::vector<std::string> warnings;
 
-  std::uint64_t texels() const;  // of all charts' rectangles
+  std::uint64_t texels() const;         // of all charts' rectangles
+  std::uint64_t coveredTexels() const;  // of them those that a chart's triangles touch
   // Whether emitting surfaces light others.
   bool emittersShine() const { return alwaysOn && world.scene->bake.areaLights; }
 };
 
 // The scene outlives the plan. Errors: a scene without triangles (ErrorKind::Input), maps that
-// cannot hold it (the message says the density that would fit), an unknown group of lights
-// (ErrorKind::Usage).
+// cannot hold it (ErrorKind::Usage; the message says a density that fits), an unknown group of
+// lights (ErrorKind::Usage).
 Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings);
 
 // A texel of a chart in the maps, and a point in the chart's texels.
