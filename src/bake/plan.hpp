@@ -26,6 +26,7 @@ struct Sampling {
   int finePositions;  // the same of texels at the edges of shadows; 0: no others
   int lightSamples;   // points on a light with a size, see LighterSettings
   float emitterSize;  // of an emitting surface for one ray / its distance
+  bool operator==(const Sampling&) const = default;
 };
 // The presets of `lucerna bake`.
 inline constexpr Sampling kPreview{
@@ -34,6 +35,13 @@ inline constexpr Sampling kStandard{
     .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
 inline constexpr Sampling kFinal{
     .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.05f};
+
+struct Preset {
+  const char* name;
+  Sampling sampling;
+};
+inline constexpr Preset kPresets[]{
+    {"preview", kPreview}, {"standard", kStandard}, {"final", kFinal}};
 
 // Of maps, beside their masters.
 enum class Encoding { Rgb9e5, Bc6h, Png };

@@ -94,11 +94,11 @@ TEST(Text, TimesAreAsPeopleSayThem) {
 }
 
 TEST(Text, EstimatesSayNoMoreThanTheyKnow) {
-  EXPECT_EQ(estimateText(18, 4), "about 18 s, give or take 4 s");
-  EXPECT_EQ(estimateText(20400, 3600), "about 5 h 40 min, give or take 1 h");
-  EXPECT_EQ(estimateText(18, 18.5), "at most 37 s");
-  EXPECT_EQ(estimateText(18, 0.4), "about 18 s");
-  EXPECT_EQ(estimateText(0.02, 0), "about 0.1 s");
+  EXPECT_EQ(aboutText(18, 4), "about 18 s, give or take 4 s");
+  EXPECT_EQ(aboutText(20400, 3600), "about 5 h 40 min, give or take 1 h");
+  EXPECT_EQ(aboutText(18, 18.5), "at most 37 s");
+  EXPECT_EQ(aboutText(18, 0.4), "about 18 s");
+  EXPECT_EQ(aboutText(0.02, 0), "about 0.1 s");
 }
 
 }  // namespace

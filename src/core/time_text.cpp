@@ -26,7 +26,7 @@ std::string secondsText(double seconds) {
   return twoUnits(std::llround(seconds / 3600.), 24, "d", "h");
 }
 
-std::string estimateText(double seconds, double margin) {
+std::string aboutText(double seconds, double margin) {
   if (margin > seconds) return "at most " + secondsText(seconds + margin);
   const std::string about = "about " + secondsText(std::max(seconds, 0.05));
   if (seconds >= 9.95) margin = std::round(margin);

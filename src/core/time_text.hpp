@@ -10,6 +10,6 @@ std::string secondsText(double seconds);
 
 // An estimate that may be off by `margin`: "about 18 s, give or take 4 s"; "at most 31 s", their
 // sum, where the margin is the larger.
-std::string estimateText(double seconds, double margin);
+std::string aboutText(double seconds, double margin);
 
 }  // namespace lucerna
