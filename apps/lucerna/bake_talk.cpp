@@ -107,11 +107,15 @@ Json describe(const bake::Preflight& found) {
 }
 
 Json describe(const bake::Estimate& e) {
-  return {{"sampled_units", e.units},        {"sampled_texels", e.texels},
-          {"emitter_cells", e.emitterCells}, {"prepare_seconds", e.prepareSeconds},
-          {"light_seconds", e.lightSeconds}, {"deviation", e.deviation},
-          {"threads", threadCount()},        {"light_bytes", e.lightBytes},
-          {"finish_bytes", e.finishBytes},   {"log_bytes", e.logBytes}};
+  return {{"sampled_units", e.units},
+          {"emitter_cells", e.emitterCells},
+          {"prepare_seconds", e.prepareSeconds},
+          {"light_seconds", e.lightSeconds},
+          {"deviation", e.deviation},
+          {"threads", threadCount()},
+          {"light_bytes", e.lightBytes},
+          {"finish_bytes", e.finishBytes},
+          {"log_bytes", e.logBytes}};
 }
 
 std::string estimateText(const bake::Plan& plan, const bake::Estimate& e) {

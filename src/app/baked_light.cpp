@@ -25,15 +25,15 @@ bool isAmong(const std::vector<std::string>& names, const std::string& name) {
 
 Status checkGroups(const lightmap::Manifest& manifest, const std::vector<std::string>& wanted) {
   const std::vector<std::string> groups = groupsOf(manifest);
-  const std::string there =
-      groups.empty() ? "it has none that could be switched" : "wanted one of " + join(groups);
+  const std::string there = groups.empty() ? "the lightmap has none that could be switched"
+                                           : "wanted one of " + join(groups);
   for (const std::string& group : wanted) {
     if (isAmong(groups, group)) continue;
     if (group == bake::kAlwaysOn)
       return error(ErrorKind::Usage,
-                   "--lights-off: the lights that are {} cannot be switched off in this lightmap: "
-                   "they have no group; {}",
-                   group, there);
+                   "--lights-off: what is always on cannot be switched off: its light is in the "
+                   "maps, not in a patch; {}",
+                   there);
     return error(ErrorKind::Usage,
                  "--lights-off: '{}' is no group of lights in this lightmap{}; {}", group,
                  didYouMean(group, groups), there);

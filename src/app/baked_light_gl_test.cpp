@@ -198,8 +198,8 @@ TEST_F(BakedFolderTest, AGroupThatIsOffGivesNoAmbientLightEither) {
   EXPECT_THAT(error.message, HasSubstr("'lamp' is no group of lights in this lightmap (did you "
                                        "mean 'lamps'?); wanted one of lamps"));
   settings_.lightsOff = {"always-on"};
-  EXPECT_THAT(errorOf().message, HasSubstr("that are always-on cannot be switched off in this "
-                                           "lightmap: they have no group; wanted one of lamps"));
+  EXPECT_THAT(errorOf().message, HasSubstr("what is always on cannot be switched off: its light is "
+                                           "in the maps, not in a patch; wanted one of lamps"));
 }
 
 TEST_F(BakedFolderTest, AGroupStartsAsTheSceneHasIt) {

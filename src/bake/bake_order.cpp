@@ -235,10 +235,8 @@ Result<BakeOrder> readOrder(const fs::path& folder) {
   LUCERNA_TRY(text, readText(path));
   auto order = orderFrom(text, path.string());
   if (!order)
-    return error(
-        ErrorKind::Input,
-        "{}; it is damaged or of another version of this program: remove '{}' and bake anew",
-        order.error().message, (folder / kWorkFolder).string());
+    return error(ErrorKind::Input, "{}; remove '{}' and bake anew", order.error().message,
+                 (folder / kWorkFolder).string());
   return order;
 }
 

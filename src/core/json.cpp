@@ -127,7 +127,7 @@ class Builder final : public nlohmann::json_sax<Library> {
   bool stopAtForeignByte() {
     while (at_ > 0 && !isBeyondAscii(text_.substr(at_, 1))) --at_;
     return stop(
-        fmt::format("found the byte 0x{:02X}, wanted UTF-8: the file is damaged there, or has to "
+        fmt::format("found the byte 0x{:02X}, wanted UTF-8; the file is damaged there, or has to "
                     "be saved as UTF-8",
                     static_cast<unsigned char>(text_[at_])));
   }

@@ -60,7 +60,7 @@ TEST(Json, SaysInItsOwnWordsWhereATextIsNoJson) {
   EXPECT_THAT(faultOf("{\"a\": nan}"), HasSubstr("found nan, wanted a finite number"));
   EXPECT_THAT(faultOf("{\"a\": -Infinity}"), HasSubstr("found -Infinity, wanted a finite number"));
   EXPECT_EQ(faultOf("\n{\"a\": \"\xff\"}"),
-            "a.json:2:8: found the byte 0xFF, wanted UTF-8: the file is damaged there, or has to "
+            "a.json:2:8: found the byte 0xFF, wanted UTF-8; the file is damaged there, or has to "
             "be saved as UTF-8");
   // One that could begin a character.
   EXPECT_THAT(faultOf("\n{\"a\": \"M\xfcll\"}"), StartsWith("a.json:2:9: found the byte 0xFC,"));

@@ -166,10 +166,12 @@ Error noManifest(const std::string& name) {
 // A lightmap's manifest: what it is comes before what is wrong with it.
 Result<JsonDocument> parsed(std::string_view text, const std::string& name) {
   auto document = JsonDocument::parse(text, name, ErrorKind::Input);
-  if (!document && saysLightmap(text))
+  if (!document && !saysLightmap(text)) return noManifest(name);
+  if (!document) {
+    const std::string& fault = document.error().message;  // without what would mend another file
     return error(ErrorKind::Input, "{}; the manifest is damaged: bake the scene again",
-                 document.error().message);
-  if (!document) return noManifest(name);
+                 fault.substr(0, fault.find("; ", name.size())));
+  }
   const JsonValue root = document->root();
   const JsonNode* format = root.node().find("lucerna");
   const auto* found = format ? format->as<std::string>() : nullptr;

@@ -19,7 +19,7 @@ struct MapEntry {
   FileEntry master;                // EXR, Half, RGB: irradiance
   std::vector<FileEntry> encoded;  // KTX2 and PNG, as asked for
   vec3 largest{0.f};               // irradiance
-  std::uint64_t texels = 0;        // that lie on the scene
+  std::uint64_t texels = 0;        // that charts cover, without those inside of solids
 };
 
 struct PatchEntry {
