@@ -138,8 +138,12 @@ std::vector<std::uint32_t> packingOrder(std::span<const ivec2> sizes) {
   return order;
 }
 
-double withGap(ivec2 size, int gap) {
-  return (static_cast<double>(size.x) + gap) * (static_cast<double>(size.y) + gap);
+// With their gaps.
+double texelsOf(std::span<const ivec2> sizes, int gap) {
+  double texels = 0;
+  for (const ivec2 size : sizes)
+    texels += (static_cast<double>(size.x) + gap) * (static_cast<double>(size.y) + gap);
+  return texels;
 }
 
 }  // namespace
@@ -166,9 +170,11 @@ Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings) {
   return {};
 }
 
-Error tooManyMaps(std::size_t charts, double all, double taken, const PackSettings& settings) {
-  const double needed = std::max(std::ceil(settings.mostMaps * all / taken),
-                                 static_cast<double>(settings.mostMaps) + 1.);
+Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings) {
+  constexpr double kFilled = 0.95;  // of the maps, about, gaps counted
+  const double side = settings.side + settings.gap;
+  const double needed = std::clamp(std::ceil(texels / (kFilled * side * side)),
+                                   settings.mostMaps + 1., static_cast<double>(charts));
   return error(ErrorKind::Usage,
                "{} need about {:.0f} maps of {} x {} texels, and --most-maps allows {}",
                counted(charts, "chart"), needed, settings.side, settings.side, settings.mostMaps);
@@ -179,8 +185,6 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
   Packing packing;
   packing.places.resize(sizes.size());
   std::vector<Skyline> maps;
-  double all = 0., taken = 0.;
-  for (const ivec2 size : sizes) all += withGap(size, settings.gap);
   for (const std::uint32_t index : packingOrder(sizes)) {
     const ivec2 size = sizes[index] + settings.gap;
     std::optional<Spot> spot;
@@ -190,14 +194,13 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
       --map;
     } else {
       if (static_cast<int>(maps.size()) == settings.mostMaps)
-        return tooManyMaps(sizes.size(), all, taken, settings);
+        return tooManyMaps(sizes.size(), texelsOf(sizes, settings.gap), settings);
       maps.emplace_back(settings.side + settings.gap);
       spot = maps[map].find(size);
     }
     packing.places[index] = {.map = static_cast<int>(map),
                              .corner = maps[map].place(*spot, size),
                              .turned = spot->turned};
-    taken += withGap(sizes[index], settings.gap);
   }
   packing.maps = static_cast<int>(maps.size());
   return packing;

@@ -44,9 +44,8 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
 double occupancy(const Packing& packing, std::span<const ivec2> sizes, int side);
 
 // The errors of pack(), for who packs other shapes: each has to fit into a map by itself, and all
-// into the maps that are allowed. all, taken: texels of all shapes, their gaps too, and of those
-// that these maps took, which says about how many maps there would have to be.
+// into the maps that are allowed. texels: what the shapes take, with their gaps.
 Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings);
-Error tooManyMaps(std::size_t charts, double all, double taken, const PackSettings& settings);
+Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings);
 
 }  // namespace lucerna::bake

@@ -102,9 +102,13 @@ class Maps {
   std::vector<FreeSquares> maps_;
 };
 
-double withGap(const TexelMask& mask, int gap) {
-  return static_cast<double>(mask.count()) +
-         static_cast<double>(gap) * (mask.size().x + mask.size().y);
+// With their gaps.
+double texelsOf(std::span<const TexelMask> masks, int gap) {
+  double texels = 0;
+  for (const TexelMask& mask : masks)
+    texels += static_cast<double>(mask.count()) +
+              static_cast<double>(gap) * (mask.size().x + mask.size().y + gap);
+  return texels;
 }
 
 }  // namespace
@@ -118,8 +122,6 @@ Result<Packing> packMasks(std::span<const TexelMask> masks, const PackSettings& 
   Maps maps(settings);
   Shape shape;
   const TexelMask* last = nullptr;
-  double all = 0., taken = 0.;
-  for (const TexelMask& mask : masks) all += withGap(mask, settings.gap);
   Progress progress("packing charts", masks.size());
   for (const std::uint32_t index : packingOrder(masks)) {
     LUCERNA_TRY_VOID(checkGoesOn());
@@ -128,12 +130,12 @@ Result<Packing> packMasks(std::span<const TexelMask> masks, const PackSettings& 
     last = &masks[index];
     auto place = maps.place(shape);
     if (!place) {
-      if (maps.count() == settings.mostMaps) return tooManyMaps(masks.size(), all, taken, settings);
+      if (maps.count() == settings.mostMaps)
+        return tooManyMaps(masks.size(), texelsOf(masks, settings.gap), settings);
       maps.add();
       place = maps.place(shape);
     }
     packing.places[index] = *place;
-    taken += withGap(masks[index], settings.gap);
   }
   packing.maps = maps.count();
   return packing;

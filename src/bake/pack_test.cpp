@@ -113,6 +113,9 @@ TEST(Pack, SaysWhatDoesNotFit) {
   EXPECT_EQ(tooMany.error().kind, ErrorKind::Usage);
   EXPECT_EQ(tooMany.error().message,
             "16 charts need about 16 maps of 100 x 100 texels, and --most-maps allows 4");
+  const auto small = pack(std::vector<ivec2>(400, ivec2(18)), {.side = 98, .mostMaps = 4});
+  ASSERT_FALSE(small);  // 25 in each, so 16 are enough
+  EXPECT_THAT(small.error().message, HasSubstr("400 charts need about 17 maps"));
 }
 
 }  // namespace

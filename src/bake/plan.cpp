@@ -62,7 +62,7 @@ float twoDigits(double density) {
 float densityThatFits(const World& world, const Charts& charts, BakeSettings settings) {
   constexpr float kLeast = 1e-3f;
   constexpr int kMostTries = 24, kFineTries = 12;
-  constexpr double kFine = 0.92, kCoarse = 0.5;
+  constexpr double kFine = 0.95, kCoarse = 0.5;
   const double room =
       static_cast<double>(settings.pack.mostMaps) * settings.pack.side * settings.pack.side;
   double density = std::min<double>(settings.density, std::sqrt(room / areaOf(charts)));
