@@ -245,7 +245,8 @@ class BakeTest(unittest.TestCase):
     def test_interrupt_keeps_what_is_done(self):
         plain = self.whole("plain", *LONG)
         self.assertEqual(self.end("i", signal.SIGINT, self.logged("i", 1 << 16), *LONG), 130)
-        self.assertIn("error: cancelled; what is lit is kept in 'i': the same command with --resume goes on\n", self.said)
+        self.assertIn("error: cancelled; what is lit is kept in 'i': the same command with --resume goes on\n",
+                      self.said)
         self.assertFalse((self.folder / "i" / "manifest.json").exists())
         self.fails(2, self.bake("i", *LONG), "--resume")
         document = json.loads(self.ok(self.bake("i", *LONG, "--resume", "--json")).stdout)
@@ -268,7 +269,8 @@ class BakeTest(unittest.TestCase):
             self.ok(self.bake("m", *LONG, "--shard", f"{shard}/2"))
         merge = ["lightmap", "merge", "m"]
         check("m", self.end_run(merge, signal.SIGINT, self.written("m", 1)))
-        self.assertIn("error: cancelled; what the shards have lit is kept in 'm': the same command merges it\n", self.said)
+        self.assertIn("error: cancelled; what the shards have lit is kept in 'm': the same command merges it\n",
+                      self.said)
         layout = self.folder / "m" / "layout.bin"
         layout.unlink()
         check("m", self.end_run(merge, signal.SIGINT, layout.exists))
@@ -516,8 +518,8 @@ class BakeTest(unittest.TestCase):
             flags = ["--size", "64", "--most-maps", most, "--preset", "preview"]
             run = self.bake("many", "--density", density, *flags)
             self.assertEqual(run.returncode, 2, run.stderr)
-            said = re.search(rf"error: \d+ charts need about (\d+) maps of 64 x 64 texels, and --most-maps allows {most};"
-                             r" wanted --density ([\d.]+), which fits, or larger maps \(--size\) or more of them "
+            said = re.search(rf"error: \d+ charts need about (\d+) maps of 64 x 64 texels, and --most-maps allows "
+                             rf"{most}; wanted --density ([\d.]+), which fits, or larger maps \(--size\) or more of them "
                              r"\(--most-maps\)\n", run.stderr)
             self.assertTrue(said, run.stderr)
             self.assertGreater(int(said[1]), most)
@@ -553,7 +555,8 @@ class BakeTest(unittest.TestCase):
         """The same in a dry run, while baking and in the manifest; the box hides none."""
         scene = "builtin:cornell?boxes=0"
         covered = json.loads(self.ok(self.bake("t", *SMALL, "--dry-run", "--json", scene=scene)).stdout)["texels"]
-        self.assertIn(f"texels     {covered} that they cover\n", self.ok(self.bake("t", *SMALL, "--dry-run", scene=scene)).stdout)
+        text = self.ok(self.bake("t", *SMALL, "--dry-run", scene=scene)).stdout
+        self.assertIn(f"texels     {covered} that they cover\n", text)
         run = self.ok(self.bake("t", *SMALL, "--json", scene=scene))
         self.assertIn(f"which cover {covered} texels of ", run.stderr)
         self.assertEqual(json.loads(run.stdout)["texels"], covered)
