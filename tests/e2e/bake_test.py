@@ -519,8 +519,8 @@ class BakeTest(unittest.TestCase):
             run = self.bake("many", "--density", density, *flags)
             self.assertEqual(run.returncode, 2, run.stderr)
             said = re.search(rf"error: \d+ charts need about (\d+) maps of 64 x 64 texels, and --most-maps allows "
-                             rf"{most}; wanted --density ([\d.]+), which fits, or larger maps \(--size\) or more of them "
-                             r"\(--most-maps\)\n", run.stderr)
+                             rf"{most}; wanted --density ([\d.]+), which fits, or larger maps \(--size\) or more of "
+                             r"them \(--most-maps\)\n", run.stderr)
             self.assertTrue(said, run.stderr)
             self.assertGreater(int(said[1]), most)
             self.assertFalse((self.folder / "many").exists())
