@@ -8,6 +8,7 @@
 #include "bake/bake_order.hpp"
 #include "bake/estimate.hpp"
 #include "bake/hints.hpp"
+#include "bake/own_files.hpp"
 #include "bake/preflight.hpp"
 #include "bake/seconds.hpp"
 #include "bake_talk.hpp"
@@ -66,12 +67,19 @@ Result<int> dryRun(const bake::Plan& plan, bool json) {
   return 0;
 }
 
+// Removes what a finished bake has left of its work, not what one of other settings goes on with.
+void clearWork(const Options& options, const bake::Plan& plan) {
+  if (bake::isUnderWay(options.folder)) return;
+  const auto order = bake::readOrder(options.folder);
+  if (!order || order->plan == plan.hash) bake::removeWork(options.folder);
+}
+
 // With --resume: whether nothing is left to do.
 Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
   if (!options.resume) return false;
   const Result<bool> finished = bake::isFinished(plan, options.folder);
   if (finished && *finished) {
-    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
+    clearWork(options, plan);
     log::info("'{}' is finished; nothing is left to do", options.folder);
     return true;
   }

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <mutex>
 
 #include "bake/assemble.hpp"
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
+#include "bake/own_files.hpp"
 #include "bake/seconds.hpp"
 #include "bake/shadow_tracer.hpp"
 #include "bake/unit_log.hpp"
@@ -49,38 +49,6 @@ Status checkWritable(const fs::path& folder) {
   if (::access(there.c_str(), W_OK | X_OK) == 0 && fs::is_directory(there, failed)) return {};
   return error(ErrorKind::Failed, "-o: '{}' cannot be made: '{}' is no folder that can be written",
                folder.string(), there.string());
-}
-
-// What is named like the temporary files of core/file.hpp.
-bool isTemporary(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.starts_with('.') && name.find(".tmp-") != std::string::npos;
-}
-
-// Whether it says that it is a lightmap's; such a file begins so.
-bool isOurs(const fs::path& manifest) {
-  std::string start(64, '\0');
-  std::ifstream(manifest, std::ios::binary).read(start.data(), std::ssize(start));
-  return start.find("\"lucerna\": \"lightmap/") != std::string::npos;
-}
-
-// Whether anything lies there that no bake has made. One that was killed leaves its order in
-// DIR/work or, if that was removed, the layout and what is named like a lightmap's files.
-bool holdsOthers(const fs::path& folder) {
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed)) return false;
-  if (fs::exists(folder / kManifestFile, failed)) return !isOurs(folder / kManifestFile);
-  if (fs::exists(orderPath(folder), failed)) return false;
-  const bool laidOut = fs::exists(folder / kLayoutFile, failed);
-  const fs::directory_iterator files(folder, failed);
-  return std::any_of(begin(files), end(files), [&](const fs::directory_entry& file) {
-    const std::string name = file.path().filename().string();
-    if (name == kWorkFolder) {
-      const fs::directory_iterator work(file.path(), failed);
-      return !std::all_of(begin(work), end(work), isTemporary);
-    }
-    return !isTemporary(file.path()) && !(laidOut && isLightmapFile(name));
-  });
 }
 
 // What logs are checked by: light of another kind of processor differs in the last bits.
@@ -168,10 +136,8 @@ Status checkFolder(const fs::path& folder, bool resume, const Shard& shard) {
     return error(ErrorKind::Usage,
                  "-o: '{}' holds an unfinished bake; go on with --resume, or remove '{}'",
                  folder.string(), (folder / kWorkFolder).string());
-  if (holdsOthers(folder))
-    return error(ErrorKind::Usage,
-                 "-o: '{}' holds files that are none of a lightmap; wanted a new or empty folder",
-                 folder.string());
+  if (const Status others = checkNoOthers(folder); !others)
+    return error(others.error().kind, "-o: {}", others.error().message);
   return checkWritable(folder);
 }
 
@@ -208,15 +174,6 @@ Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
 
 bool isUnderWay(const fs::path& folder) {
   return std::ranges::any_of(logsIn(folder), isBusy);
-}
-
-void removeWork(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove_all(folder / kWorkFolder, ignored);
-  std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (isTemporary(entry.path())) left.push_back(entry.path());
-  for (const fs::path& path : left) fs::remove(path, ignored);
 }
 
 Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
 #include "bake/make_patch.hpp"
+#include "bake/own_files.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
@@ -198,37 +198,11 @@ void describeScene(const Plan& plan, Manifest& manifest) {
              .hash = lightmap::hashText16(lightmap::lightHash(scene, light.light))});
 }
 
-// Removes what the manifest does not name: files of an earlier bake, and of one that was killed.
-void removeOthers(const fs::path& folder, const Manifest& manifest) {
-  std::set<std::string> names{kManifestFile};
-  for (const FileEntry& entry : lightmap::filesOf(manifest)) names.insert(entry.file);
-  std::error_code ignored;
-  std::vector<fs::path> others;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (const std::string name = entry.path().filename().string();
-        isLightmapFile(name) && !names.contains(name))
-      others.push_back(entry.path());
-  for (const fs::path& other : others) fs::remove(other, ignored);
-}
-
 }  // namespace
-
-bool isLightmapFile(const std::string& name) {
-  // Its start, three digits or more, and how it ends.
-  const auto isNumbered = [&](std::string_view start,
-                              std::initializer_list<std::string_view> ends) {
-    if (!name.starts_with(start)) return false;
-    const std::size_t digits = name.find_first_not_of("0123456789", start.size());
-    return digits != std::string::npos && digits >= start.size() + 3 &&
-           std::ranges::find(ends, std::string_view(name).substr(digits)) != ends.end();
-  };
-  return name == kManifestFile || name == kLayoutFile || name == "scene.gltf" ||
-         name == "scene.bin" || isNumbered("patch-", {".bin"}) || isNumbered("tex-", {".png"}) ||
-         isNumbered("map-", {".exr", ".hdr", ".png", ".rgb9e5.ktx2", ".bc6h.ktx2"});
-}
 
 Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& folder,
                      std::uint64_t& texels) {
+  LUCERNA_TRY_VOID(claimFiles(plan, folder));
   Manifest manifest;
   describeScene(plan, manifest);
   const lightmap::Layout layout = layoutOf(plan);
@@ -241,7 +215,7 @@ Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& 
   texels = 0;
   for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
   LUCERNA_TRY_VOID(writeText(folder / kManifestFile, lightmap::toJson(manifest)));
-  removeOthers(folder, manifest);
+  removeUnnamed(folder, manifest);
   return {};
 }
 

@@ -9,15 +9,13 @@
 namespace lucerna::bake {
 
 // Every file is whole or not there; the manifest comes last, and then files of a bake that it does
-// not name are removed: of an earlier one, or of one that was killed. texels: how many lie on the
-// scene, for the report. ErrorKind::Cancelled after Ctrl-C: the manifest is not written.
+// not name are removed: of an earlier one, or of one that was killed (bake/own_files.hpp). texels:
+// how many lie on the scene, for the report. ErrorKind::Cancelled after Ctrl-C: the manifest is not
+// written. ErrorKind::Usage: others' files are in the way.
 Status writeLightmap(const Plan& plan, const BakedLight& baked, const std::filesystem::path& folder,
                      std::uint64_t& texels);
 
 inline constexpr const char *kManifestFile = "manifest.json",  // the last that is written
     *kLayoutFile = "layout.bin";                               // the first
-
-// Whether a file may be one of a bake's, by its name.
-bool isLightmapFile(const std::string& name);
 
 }  // namespace lucerna::bake
