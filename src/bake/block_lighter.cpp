@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/light_set.hpp"
 #include "bake/seconds.hpp"
 
 namespace lucerna::bake {
@@ -15,6 +16,8 @@ using scene::PlacedLight;
 // Of a disc beyond a straight edge that all of them miss there is 1 %; of what shows through a gap
 // it may be all, so whoever has a neighbour that does not agree is asked, too.
 constexpr int kRimPoints = 8;
+// Of one of many lights that are the sky: beyond an edge there may be 9 % of its disc.
+constexpr int kSkyRimPoints = 4;
 
 float distanceTo(const Aabb& box, vec3 p) {
   return glm::length(glm::max(glm::max(box.min - p, p - box.max), vec3(0.f)));
@@ -267,7 +270,7 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
-  const int count = settings_.lightSamples;
+  const int count = pointsOf(light);
   const auto askSpiral = [&](int first, int step) {
     gather(samples);
     for (int i = first; !unsure_.empty() && i < count; i += step)
@@ -296,9 +299,10 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
     return;
   }
   gather(samples);
-  for (int i = 0; i < kRimPoints; ++i)
+  const int rim = isOfSky(light) ? kSkyRimPoints : kRimPoints;
+  for (int i = 0; i < rim; ++i)
     ask(light, disc, [&](std::uint16_t) {
-      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints));
+      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(rim));
     });
   countAnswers();
   dropSure(samples, false);
@@ -345,7 +349,7 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   const double tracing = counters.tracingSeconds;
   const bool clear = isClear(samples, light);
   counters.tracingSeconds += secondsSince(start);
-  if (hasSize(light) && settings_.lightSamples > 1) {
+  if (pointsOf(light) > 1) {
     full_.resize(samples.size());
     seen_.resize(samples.size());
     asked_.resize(samples.size());
