@@ -8,6 +8,7 @@
 #include "bake/bake_order.hpp"
 #include "bake/estimate.hpp"
 #include "bake/hints.hpp"
+#include "bake/map_copies.hpp"
 #include "bake/own_files.hpp"
 #include "bake/preflight.hpp"
 #include "bake/seconds.hpp"
@@ -15,6 +16,7 @@
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::cli {
@@ -74,9 +76,24 @@ void clearWork(const Options& options, const bake::Plan& plan) {
   if (!order || order->plan == plan.hash) bake::removeWork(options.folder);
 }
 
+// What a finished bake lacks of the copies. False: it is damaged.
+Result<bool> addCopies(const Options& options, const bake::Plan& plan) {
+  if (bake::isUnderWay(options.folder)) return true;
+  const Result<std::size_t> maps = bake::addCopies(plan, options.folder);
+  if (!maps && maps.error().kind != ErrorKind::Input) return maps.error();
+  if (!maps)
+    log::warning("{}; this bakes it again", maps.error().message);
+  else if (*maps > 0)
+    log::info("'{}' had all but copies of {}, which are written now", options.folder,
+              counted(*maps, "map"));
+  return maps.operator bool();
+}
+
 // With --resume: whether nothing is left to do.
 Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
   if (!options.resume) return false;
+  LUCERNA_TRY(sound, addCopies(options, plan));
+  if (!sound) return false;
   const Result<bool> finished = bake::isFinished(plan, options.folder);
   if (finished && *finished) {
     clearWork(options, plan);

@@ -1,5 +1,6 @@
 #include "bake/bake_order.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -160,6 +161,19 @@ BakeOrder orderOf(const Plan& plan, const std::string& scene) {
 
 std::string settingsText(const BakeSettings& settings) {
   return settingsJson(settings).dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool lacksCopiesAlone(const std::string& there, const BakeSettings& here) {
+  Json less = Json::parse(there, nullptr, false), more = settingsJson(here);
+  if (!less.is_object() || !more.contains("encode")) return false;
+  const Json had = less.value("encode", Json::array()), wanted = more["encode"];
+  less.erase("encode");
+  more.erase("encode");
+  const auto isWanted = [&](const Json& copy) {
+    return std::ranges::find(wanted, copy) != wanted.end();
+  };
+  return textOf(less) == textOf(more) && had.size() < wanted.size() &&
+         std::ranges::all_of(had, isWanted);
 }
 
 std::string toJson(const BakeOrder& order) {

@@ -6,13 +6,13 @@
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
 #include "bake/make_patch.hpp"
+#include "bake/map_copies.hpp"
 #include "bake/own_files.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "image/image_file.hpp"
-#include "image/ktx2.hpp"
 #include "lightmap/lightmap.hpp"
 #include "lightmap/scene_hash.hpp"
 
@@ -34,35 +34,6 @@ vec3 largestOf(const Image& map) {
   return largest;
 }
 
-// What viewers show: sRGB of a white surface at the scene's exposure.
-Image pictureOf(const Image& map, float white) {
-  Image picture(map.width(), map.height(), 3, ComponentType::U8);
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x)
-      for (int c = 0; c < 3; ++c)
-        picture.pixel<std::uint8_t>(x, y)[c] = static_cast<std::uint8_t>(
-            255.f * srgbFromLinear(floatFromHalf(map.pixel<std::uint16_t>(x, y)[c]) / white) +
-            0.5f);
-  return picture;
-}
-
-Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding encoding,
-                               const fs::path& folder, float white) {
-  switch (encoding) {
-    case Encoding::Rgb9e5:
-      return lightmap::writeEntry(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
-                                  encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
-    case Encoding::Bc6h:
-      return lightmap::writeEntry(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
-                                  encodeKtx2({&map, 1}, HdrFormat::Bc6h));
-    case Encoding::Png:
-      break;
-  }
-  const std::string name = fmt::format("map-{:03}.png", index);
-  LUCERNA_TRY(bytes, encodeImage(folder / name, pictureOf(map, white)));
-  return lightmap::writeEntry(folder, name, bytes);
-}
-
 Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, std::size_t index,
                                     const fs::path& folder) {
   const std::string name = fmt::format("map-{:03}.exr", index);
@@ -71,8 +42,8 @@ Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, s
   LUCERNA_TRY(master, lightmap::writeEntry(folder, name, bytes));
   entry.master = std::move(master);
   for (const Encoding encoding : plan.settings.encodings) {
-    LUCERNA_TRY(encoded, writeEncoded(baked.maps[index], index, encoding, folder,
-                                      irradianceOfWhite(*plan.world.scene)));
+    LUCERNA_TRY(encoded, writeCopy(baked.maps[index], index, encoding, folder,
+                                   irradianceOfWhite(*plan.world.scene)));
     entry.encoded.push_back(std::move(encoded));
   }
   entry.largest = largestOf(baked.maps[index]);

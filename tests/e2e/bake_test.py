@@ -321,6 +321,51 @@ class BakeTest(unittest.TestCase):
         self.assertIn("map-000.exr: is damaged", self.ok(self.bake("f", *SMALL, "--resume")).stderr)
         self.assertEqual(self.hashes("f"), plain)
 
+    def test_copies_are_added_to_a_finished_bake(self):
+        plain = self.whole("plain", *SMALL, "--encode", "rgb9e5,bc6h,png")
+        self.whole("d", *SMALL)
+        master = (self.folder / "d" / "map-000.exr").stat().st_mtime_ns
+        run = self.ok(self.bake("d", *SMALL, "--encode", "bc6h", "--resume", "--json"))
+        self.assertIn("copies of 5 maps", run.stderr)
+        self.assertNotIn("bake", json.loads(run.stdout))
+        self.assertEqual(self.hashes("d"), self.whole("bc6h", *SMALL, "--encode", "bc6h"))
+        # One that is there is not made again; one too many is another bake.
+        copy = (self.folder / "d" / "map-000.bc6h.ktx2").stat().st_mtime_ns
+        self.ok(self.bake("d", *SMALL, "--encode", "png,rgb9e5,bc6h", "--resume"))
+        self.assertEqual(self.hashes("d"), plain)
+        self.assertEqual((self.folder / "d" / "map-000.exr").stat().st_mtime_ns, master)
+        self.assertEqual((self.folder / "d" / "map-000.bc6h.ktx2").stat().st_mtime_ns, copy)
+        for encodings in ([], ["--encode", "png"]):
+            self.fails(2, self.bake("d", *SMALL, *encodings, "--resume"), "other settings")
+        self.fails(2, self.bake("d", *SMALL, "--padding", 3, "--encode", "png", "--resume"), "other settings")
+        self.assertEqual(self.hashes("d"), plain)
+        # A master that is damaged: all is baked again. A file of another's is in the way.
+        self.whole("d", *SMALL)
+        (self.folder / "d" / "map-001.exr").write_bytes(b"")
+        flags = [*SMALL, "--encode", "rgb9e5,bc6h,png", "--resume"]
+        self.assertIn("this bakes it again", self.ok(self.bake("d", *flags)).stderr)
+        self.assertEqual(self.hashes("d"), plain)
+        before = self.whole("d", *SMALL)
+        (self.folder / "d" / "map-000.png").write_text("mine")
+        self.fails(2, self.bake("d", *flags), "'map-000.png'")
+        (self.folder / "d" / "map-000.png").unlink()
+        self.assertEqual(self.hashes("d"), before)
+
+    def test_adding_copies_can_be_killed(self):
+        large = ["--density", "800", "--size", "256", "--preset", "preview"]
+        flags = [*large, "--encode", "bc6h"]
+        plain, old = self.whole("plain", *flags), self.whole("d", *large)
+        copies = lambda: len(list((self.folder / "d").glob("map-*.bc6h.ktx2"))) > 2
+        self.assertEqual(self.end("d", signal.SIGKILL, copies, *flags, "--resume"), -signal.SIGKILL)
+        self.assertFalse((self.folder / "d" / "work").exists())
+        self.ok(self.lucerna("lightmap", "inspect", "d"))
+        self.assertIn("nothing is left to do", self.ok(self.bake("d", *large, "--resume")).stderr)
+        self.assertEqual(self.hashes("d"), old)
+        self.assertEqual(self.end("d", signal.SIGINT, copies, *flags, "--resume"), 130)
+        self.ok(self.lucerna("lightmap", "inspect", "d"))
+        self.ok(self.bake("d", *flags, "--resume"))
+        self.assertEqual(self.hashes("d"), plain)
+
     def test_a_new_bake_replaces_all_of_an_old_one(self):
         self.whole("r", "--density", "80", "--size", "64", "--preset", "preview")
         self.assertGreater(len(self.manifest("r")["maps"]), 1)
