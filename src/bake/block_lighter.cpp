@@ -259,6 +259,13 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
     return !same && glm::dot(to, to) < near * near;
   };
   unsure_.clear();
+  bool anySeen = false, anyBlocked = false;
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+    if (full_[i] <= 0.f || asked_[i] <= 0.f) continue;
+    anySeen = anySeen || seen_[i] != vec3(0.f);
+    anyBlocked = anyBlocked || seen_[i] != vec3(asked_[i]);
+  }
+  if (!anySeen || !anyBlocked) return;
   for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
     if (full_[i] <= 0.f || fine_[i]) continue;
     std::uint32_t k = tile.first;
