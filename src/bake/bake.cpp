@@ -7,7 +7,6 @@
 #include <chrono>
 #include <mutex>
 
-#include "bake/assemble.hpp"
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
 #include "bake/own_files.hpp"
@@ -51,12 +50,6 @@ Status checkWritable(const fs::path& folder) {
                folder.string(), there.string());
 }
 
-// What logs are checked by: light of another kind of processor differs in the last bits.
-std::uint64_t logHash(const Plan& plan) {
-  const std::string_view processor = rayInstructionSet();
-  return hashCombine(plan.hash, hashBytes(std::as_bytes(std::span(processor))));
-}
-
 // Marks what logs of other divisions into shards hold: no shard of this one writes them.
 Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& shard,
                         std::vector<bool>& done) {
@@ -68,51 +61,6 @@ Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& s
       if (state.done[i]) done[i] = true;
   }
   return {};
-}
-
-// All logs, put into maps.
-struct Merged {
-  BakedLight baked;
-  std::vector<bool> done;
-  std::vector<fs::path> logs;
-  std::vector<std::string> damage;
-};
-
-Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
-  Merged merged{.baked = emptyLight(plan),
-                .done = std::vector<bool>(plan.units.size(), false),
-                .logs = logsIn(folder),
-                .damage = {}};
-  Progress progress("reading logs", plan.units.size());
-  for (const fs::path& path : merged.logs) {
-    const auto use = [&](std::uint32_t unit, std::span<const std::byte> payload) -> Status {
-      LUCERNA_TRY_VOID(checkGoesOn());
-      if (merged.done[unit]) return {};
-      const auto light = unitLightFrom(payload, plan, plan.units[unit]);
-      if (!light)
-        return error(ErrorKind::Input, "{}: is damaged; remove it and bake that part again",
-                     path.string());
-      putInMaps(merged.baked, plan, plan.units[unit], *light);
-      merged.done[unit] = true;
-      progress.advance();
-      return {};
-    };
-    LUCERNA_TRY(state, readUnitLog(path, logHash(plan), plan.units.size(), use));
-    merged.damage.insert(merged.damage.end(), state.damage.begin(), state.damage.end());
-  }
-  return merged;
-}
-
-Status checkComplete(const Merged& merged, const fs::path& folder) {
-  const auto missing = std::ranges::count(merged.done, false);
-  if (missing == 0) return {};
-  const std::string damage =
-      merged.damage.empty() ? "" : fmt::format("; {}", fmt::join(merged.damage, "; "));
-  return error(ErrorKind::Failed,
-               "'{}': {} of {} units of light are missing: {}{}; bake these shards with the same "
-               "settings and --resume",
-               folder.string(), missing, merged.done.size(),
-               describeMissing(merged.logs, merged.done), damage);
 }
 
 }  // namespace
@@ -218,20 +166,6 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
   report.seconds.light += secondsSince(lit);
   LUCERNA_TRY_VOID(failure.status());
   return checkGoesOn();
-}
-
-Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
-  const auto start = Clock::now();
-  LUCERNA_TRY(merged, readLogs(plan, folder));
-  LUCERNA_TRY_VOID(checkComplete(merged, folder));
-  dilate(merged.baked);
-  LUCERNA_TRY_VOID(checkGoesOn());
-  report.seams = closeSeams(plan, merged.baked);
-  LUCERNA_TRY_VOID(checkGoesOn());
-  LUCERNA_TRY_VOID(writeLightmap(plan, merged.baked, folder, report.texels));
-  removeWork(folder);
-  report.seconds.finish += secondsSince(start);
-  return {};
 }
 
 }  // namespace lucerna::bake

@@ -18,6 +18,7 @@ struct Estimate {
   // counted for maps and groups. 0: this machine does not say.
   std::uint64_t lightBytes = 0, finishBytes = 0;
   std::uint64_t logBytes = 0;  // in DIR/work
+  std::uint64_t litBytes = 0;  // of groups that switch, if all were in memory at once
 };
 
 // Lights units in a random order, the same each time, for about so many seconds, and a block at

@@ -143,9 +143,14 @@ TEST_F(OwnFiles, AllThatABakeWritesIsClaimed) {
   plan.settings.encodings = {Encoding::Rgb9e5, Encoding::Bc6h, Encoding::Png};
   ASSERT_TRUE(claimFiles(plan, folder_.path()));
   const std::string claimed = *readText(folder_ / "unfinished.json");
-  std::uint64_t texels = 0;
-  const Status written = writeLightmap(plan, emptyLight(plan), folder_.path(), texels);
-  ASSERT_TRUE(written) << written.error().message;
+  const BakedLight dark = emptyLight(plan);
+  Result<LightmapWriter> writer = LightmapWriter::begin(plan, folder_.path());
+  ASSERT_TRUE(writer) << writer.error().message;
+  ASSERT_TRUE(writer->writeMaps(dark.maps, dark.texels));
+  const auto groups = static_cast<std::uint32_t>(plan.groups.size());
+  Progress progress("making patches", groups);
+  ASSERT_TRUE(writer->writePatches(dark, {.first = 1, .last = groups}, progress));
+  ASSERT_TRUE(writer->end());
   const auto all = names();
   EXPECT_THAT(all,
               AllOf(Contains("map-000.png"), Contains("patch-000.bin"), Contains("tex-000.png")));
