@@ -69,6 +69,15 @@ Result<int> merge(const Options& options, bool json) {
   return 0;
 }
 
+// With the next step after Ctrl-C.
+Result<int> mergeOrCancel(const Options& options, bool json) {
+  auto result = merge(options, json);
+  if (result || result.error().kind != ErrorKind::Cancelled) return result;
+  return error(ErrorKind::Cancelled,
+               "cancelled; what the shards have lit is kept in '{}': the same command merges it",
+               options.folder);
+}
+
 // inspect
 
 struct MapTable {
@@ -304,7 +313,8 @@ CLI::App* addFolderCommand(CommandLine& line, CLI::App& group, const char* name,
 void addLightmap(CommandLine& line) {
   CLI::App* group = line.app.add_subcommand("lightmap", "join parts of a bake, or look at one");
   const auto merging = std::make_shared<Options>(), looking = std::make_shared<Options>();
-  addFolderCommand(line, *group, "merge", "make the maps of what shards have baked", merge, merging)
+  addFolderCommand(line, *group, "merge", "make the maps of what shards have baked", mergeOrCancel,
+                   merging)
       ->add_option("--scene", merging->scene, "where the scene is now (where the shards found it)");
   CLI::App* command = addFolderCommand(
       line, *group, "inspect", "a table of the maps, and pictures of them", inspect, looking);

@@ -89,23 +89,58 @@ std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// "density is 10 there, 20 here"; one that is missing is "none".
-std::string differences(const Json& there, const Json& here) {
+// Of the settings that a flag sets by itself.
+constexpr std::pair<const char*, const char*> kFlags[]{{"density", "--density"},
+                                                       {"size", "--size"},
+                                                       {"padding", "--padding"},
+                                                       {"mostMaps", "--most-maps"},
+                                                       {"unwrap", "--unwrap"},
+                                                       {"lights", "--lights"},
+                                                       {"patchTolerance", "--patch-tolerance"},
+                                                       {"reach", "--reach"},
+                                                       {"faintest", "--faintest"},
+                                                       {"sky", "--sky"},
+                                                       {"encode", "--encode"},
+                                                       {"engine", "--engine"}};
+
+// A preset's name, or what stands in place of one.
+std::string presetOf(const Sampling& s) {
+  for (const Preset& preset : kPresets)
+    if (s == preset.sampling) return preset.name;
+  return fmt::format("none of this version's ({}, {}, {}, {})", s.positions, s.finePositions,
+                     s.lightSamples, s.emitterSize);
+}
+
+// As the command line takes it.
+std::string valueText(const Json& value) {
+  if (value.is_string()) return value;
+  if (!value.is_array()) return textOf(value);
   std::vector<std::string> list;
-  const auto compare = [&](const std::string& key) {
-    const std::string a = there.contains(key) ? textOf(there[key]) : "none";
-    const std::string b = here.contains(key) ? textOf(here[key]) : "none";
-    if (a != b) list.push_back(fmt::format("{} is {} there, {} here", key, a, b));
+  for (const Json& each : value) list.push_back(valueText(each));
+  return fmt::format("{}", fmt::join(list, ","));
+}
+
+// "--density is 10 there, 20 here"
+std::string differences(const BakeSettings& there, const BakeSettings& here) {
+  std::vector<std::string> list;
+  const auto compare = [&](const char* flag, const std::string& a, const std::string& b) {
+    if (a != b) list.push_back(fmt::format("{} is {} there, {} here", flag, a, b));
   };
-  for (const auto& [key, value] : there.items()) compare(key);
-  for (const auto& [key, value] : here.items())
-    if (!there.contains(key)) compare(key);
+  compare("--preset", presetOf(there.sampling), presetOf(here.sampling));
+  const Json a = settingsJson(there), b = settingsJson(here);
+  for (const auto& [key, flag] : kFlags) {
+    const char* otherwise = std::string_view(key) == "lights" ? "all" : "none";
+    const auto value = [&](const Json& of) {
+      return of.contains(key) ? valueText(of[key]) : otherwise;
+    };
+    compare(flag, value(a), value(b));
+  }
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
 Status checkSame(const BakeOrder& there, const BakeOrder& here, const fs::path& folder) {
   const std::string work = (folder / kWorkFolder).string();
-  const std::string found = differences(settingsJson(there.settings), settingsJson(here.settings));
+  const std::string found = differences(there.settings, here.settings);
   if (!found.empty())
     return error(
         ErrorKind::Usage,
@@ -216,7 +251,11 @@ Result<BakeOrder> readOrder(const fs::path& folder) {
                  "bake --shard` was given",
                  folder.string(), path.lexically_relative(folder).string());
   LUCERNA_TRY(text, readText(path));
-  return orderFrom(text, path.string());
+  auto order = orderFrom(text, path.string());
+  if (!order)
+    return error(ErrorKind::Input, "{}; remove '{}' and bake anew", order.error().message,
+                 (folder / kWorkFolder).string());
+  return order;
 }
 
 Status keepOrder(const fs::path& folder, const BakeOrder& order) {

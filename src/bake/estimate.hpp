@@ -9,7 +9,7 @@
 namespace lucerna::bake {
 
 struct Estimate {
-  std::uint64_t units = 0, texels = 0;  // that were lit for it, some units in part
+  std::uint64_t units = 0, texels = 0;  // lit for it, some units in part; as Plan::texels()
   std::uint64_t emitterCells = 0;       // of surfaces that shine
   double prepareSeconds = 0.;           // taken, before the first ray
   double lightSeconds = 0.;             // of this machine's threads as they are set

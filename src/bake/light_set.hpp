@@ -10,7 +10,7 @@
 
 namespace lucerna::bake {
 
-// What `--lights` calls the lights without a group.
+// What `--lights`, and messages, call the lights without a group.
 inline constexpr const char* kAlwaysOn = "always-on";
 
 struct LightGroup {

@@ -173,7 +173,7 @@ class BakeTest(unittest.TestCase):
         while process.poll() is None and not reached() and time.monotonic() < deadline:
             time.sleep(0.0005)
         process.send_signal(sign)
-        process.communicate(timeout=120)
+        self.said = process.communicate(timeout=120)[1]
         return process.returncode
 
     def logged(self, folder, count):
@@ -254,6 +254,8 @@ class BakeTest(unittest.TestCase):
     def test_interrupt_keeps_what_is_done(self):
         plain = self.whole("plain", *LONG)
         self.assertEqual(self.end("i", signal.SIGINT, self.logged("i", 1 << 16), *LONG), 130)
+        self.assertIn("error: cancelled; what is lit is kept in 'i': the same command with --resume goes on\n",
+                      self.said)
         self.assertFalse((self.folder / "i" / "manifest.json").exists())
         self.fails(2, self.bake("i", *LONG), "--resume")
         document = json.loads(self.ok(self.bake("i", *LONG, "--resume", "--json")).stdout)
@@ -276,6 +278,8 @@ class BakeTest(unittest.TestCase):
             self.ok(self.bake("m", *LONG, "--shard", f"{shard}/2"))
         merge = ["lightmap", "merge", "m"]
         check("m", self.end_run(merge, signal.SIGINT, self.written("m", 1)))
+        self.assertIn("error: cancelled; what the shards have lit is kept in 'm': the same command merges it\n",
+                      self.said)
         layout = self.folder / "m" / "layout.bin"
         layout.unlink()
         check("m", self.end_run(merge, signal.SIGINT, layout.exists))
@@ -376,7 +380,9 @@ class BakeTest(unittest.TestCase):
     def test_other_settings_are_named(self):
         self.ok(self.bake("o", *SMALL, "--shard", "1/2"))
         self.fails(2, self.bake("o", "--density", "41", *SMALL[2:], "--shard", "2/2"),
-                   "density is 40 there, 41 here", "remove 'o/work'")
+                   "--density is 40 there, 41 here", "remove 'o/work'")
+        self.fails(2, self.bake("o", *SMALL[:-1], "standard", "--shard", "2/2"),
+                   "other settings: --preset is preview there, standard here; give the same")
         self.fails(2, self.bake("o", *SMALL, "--reach", 3, "--shard", "2/2"), "reach is none there, 3 here")
         self.fails(2, self.bake("o", *SMALL, "--shard", "2/2", scene="builtin:cornell?boxes=0"), "another scene",
                    "'builtin:cornell' there", "'builtin:cornell?boxes=0' here")
@@ -570,7 +576,7 @@ class BakeTest(unittest.TestCase):
     # Scenes and settings
 
     def test_unknown_groups_are_named_and_nothing_is_made(self):
-        self.fails(2, self.bake("g", *SMALL, "--lights", "kitchen"), "no light group 'kitchen'", "always-on")
+        self.fails(2, self.bake("g", *SMALL, "--lights", "always-on, kitchen"), "no light group 'kitchen'", "always-on")
         self.assertFalse((self.folder / "g").exists())
 
     def test_no_lights_is_a_warning(self):
@@ -603,7 +609,7 @@ class BakeTest(unittest.TestCase):
         self.assertLess(coarse["patches"][0]["bytes"], fine["patches"][0]["bytes"])
         self.ok(self.bake("c", *flags, "--shard", "1/2", scene=hinted))
         self.fails(2, self.bake("c", *flags, "--shard", "2/2", "--patch-tolerance", "0.1", scene=hinted),
-                   "patchTolerance is 0.25 there, 0.1 here")
+                   "--patch-tolerance is 0.25 there, 0.1 here")
         self.ok(self.bake("c", *flags, "--shard", "2/2", scene=hinted))
         self.ok(self.lucerna("lightmap", "merge", "c"))
         self.assertEqual(self.hashes("c"), self.hashes("a"))
@@ -615,14 +621,23 @@ class BakeTest(unittest.TestCase):
         self.fails(2, self.bake("f", *flags, scene=scene("dark.json", maps=False, patches=False)), "nothing to bake")
 
     def test_too_many_maps_say_what_fits(self):
-        flags = ["--size", "64", "--most-maps", "2", "--preset", "preview"]
-        run = self.bake("many", "--density", "200", *flags)
-        self.assertEqual(run.returncode, 3, run.stderr)
-        fits = re.search(r"--density ([\d.]+) fits", run.stderr)
-        self.assertTrue(fits, run.stderr)
-        self.assertFalse((self.folder / "many").exists())
-        self.ok(self.bake("many", "--density", fits[1], *flags))
-        self.assertEqual(self.bake("more", "--density", 1.25 * float(fits[1]), *flags).returncode, 3)
+        for most, density in ((2, 200), (2, 20000), (1, 77), (9, 93)):
+            flags = ["--size", "64", "--most-maps", most, "--preset", "preview"]
+            run = self.bake("many", "--density", density, *flags)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            said = re.search(rf"error: \d+ charts need about (\d+) maps of 64 x 64 texels, and --most-maps allows "
+                             rf"{most}; wanted --density ([\d.]+), which fits, or larger maps \(--size\) or more of "
+                             r"them \(--most-maps\)\n", run.stderr)
+            self.assertTrue(said, run.stderr)
+            self.assertGreater(int(said[1]), most)
+            self.assertFalse((self.folder / "many").exists())
+            self.ok(self.bake("many", "--density", said[2], *flags, "--resume"))
+            shutil.rmtree(self.folder / "many")
+            self.assertEqual(self.bake("more", "--density", 1.25 * float(said[2]), *flags).returncode, 2)
+        # No density makes the gap between twelve charts small enough.
+        run = self.bake("none", "--size", 16, "--padding", 16, "--most-maps", 1)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn("and --most-maps allows 1; wanted larger maps (--size) or more of them", run.stderr)
 
     # Looking
 
@@ -642,6 +657,17 @@ class BakeTest(unittest.TestCase):
         for word in ("charts", "texels", "maps", "estimate", "memory"):
             self.assertIn(word, text)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_texels_are_those_that_charts_cover(self):
+        """The same in a dry run, while baking and in the manifest; the box hides none."""
+        scene = "builtin:cornell?boxes=0"
+        covered = json.loads(self.ok(self.bake("t", *SMALL, "--dry-run", "--json", scene=scene)).stdout)["texels"]
+        text = self.ok(self.bake("t", *SMALL, "--dry-run", scene=scene)).stdout
+        self.assertIn(f"texels     {covered} that they cover\n", text)
+        run = self.ok(self.bake("t", *SMALL, "--json", scene=scene))
+        self.assertIn(f"which cover {covered} texels of ", run.stderr)
+        self.assertEqual(json.loads(run.stdout)["texels"], covered)
+        self.assertEqual(sum(each["texels"] for each in self.manifest("t")["maps"]), covered)
 
     def test_odd_triangles_are_left_out(self):
         """No numbers, no area, and far too large: the rest is lit as without them, in shadow too."""
