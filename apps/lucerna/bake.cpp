@@ -7,12 +7,15 @@
 #include "bake/bake_order.hpp"
 #include "bake/estimate.hpp"
 #include "bake/hints.hpp"
+#include "bake/map_copies.hpp"
+#include "bake/own_files.hpp"
 #include "bake/preflight.hpp"
 #include "bake/seconds.hpp"
 #include "bake_talk.hpp"
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
 #include "core/time_text.hpp"
 #include "scene/load.hpp"
 
@@ -59,12 +62,34 @@ Result<int> dryRun(const bake::Plan& plan, bool json) {
   return 0;
 }
 
+// Removes what a finished bake has left of its work, not what one of other settings goes on with.
+void clearWork(const Options& options, const bake::Plan& plan) {
+  if (bake::isUnderWay(options.folder)) return;
+  const auto order = bake::readOrder(options.folder);
+  if (!order || order->plan == plan.hash) bake::removeWork(options.folder);
+}
+
+// What a finished bake lacks of the copies. False: it is damaged.
+Result<bool> addCopies(const Options& options, const bake::Plan& plan) {
+  if (bake::isUnderWay(options.folder)) return true;
+  const Result<std::size_t> maps = bake::addCopies(plan, options.folder);
+  if (!maps && maps.error().kind != ErrorKind::Input) return maps.error();
+  if (!maps)
+    log::warning("{}; this bakes it again", maps.error().message);
+  else if (*maps > 0)
+    log::info("'{}' had all but copies of {}, which are written now", options.folder,
+              counted(*maps, "map"));
+  return maps.operator bool();
+}
+
 // With --resume: whether nothing is left to do.
 Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
   if (!options.resume) return false;
+  LUCERNA_TRY(sound, addCopies(options, plan));
+  if (!sound) return false;
   const Result<bool> finished = bake::isFinished(plan, options.folder);
   if (finished && *finished) {
-    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
+    clearWork(options, plan);
     log::info("'{}' is finished; nothing is left to do", options.folder);
     return true;
   }

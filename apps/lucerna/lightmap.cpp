@@ -7,6 +7,7 @@
 
 #include "bake/bake.hpp"
 #include "bake/bake_order.hpp"
+#include "bake/own_files.hpp"
 #include "command_line.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
@@ -47,6 +48,7 @@ Result<int> merge(const Options& options, bool json) {
   LUCERNA_TRY(merged, isMerged(options.folder));
   Json document{{"folder", options.folder}, {"finished", true}};
   if (merged) {
+    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
     log::info("'{}' is finished; nothing is left to merge", options.folder);
   } else {
     LUCERNA_TRY(order, bake::readOrder(options.folder));

@@ -1,5 +1,6 @@
 #include "bake/bake_order.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,8 @@ Json settingsJson(const BakeSettings& s) {
             {"emitterSize", number(s.sampling.emitterSize)},
             {"faintest", number(s.faintest)},
             {"sky", {number(s.sky.x), number(s.sky.y), number(s.sky.z)}},
-            {"skyDirections", s.skyDirections},
+            {"skyDirections", s.sampling.skyDirections},
+            {"skyPoints", s.sampling.skyPoints},
             {"engine", s.engine == Engine::Octree ? "octree" : "embree"}};
   if (s.patchTolerance) json["patchTolerance"] = number(*s.patchTolerance);
   if (std::isfinite(s.reach)) json["reach"] = number(s.reach);
@@ -48,10 +50,12 @@ Json settingsJson(const BakeSettings& s) {
 void readSettings(const JsonValue& from, BakeSettings& s) {
   if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions",
                     "finePositions", "lightSamples", "emitterSize", "faintest", "sky",
-                    "skyDirections", "engine", "patchTolerance", "reach", "lights", "encode"}))
+                    "skyDirections", "skyPoints", "engine", "patchTolerance", "reach", "lights",
+                    "encode"}))
     return;
   from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "finePositions",
-                "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "engine"});
+                "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "skyPoints",
+                "engine"});
   int choice = 0;
   if (from.readChoice("unwrap", {"charts", "pairs"}, choice))
     s.unwrap = choice == 0 ? Unwrap::Charts : Unwrap::Pairs;
@@ -70,7 +74,8 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
     s.patchTolerance = tolerance;
   from.read("reach", s.reach, {0.01f, 1e6f, "m"});
   from.read("sky", s.sky, {0.f, 1e6f, ""});
-  from.readInteger("skyDirections", s.skyDirections, 1, 1 << 20);
+  from.readInteger("skyDirections", s.sampling.skyDirections, 2, 1 << 20);
+  from.readInteger("skyPoints", s.sampling.skyPoints, 2, 1 << 16);
   if (from.has("lights"))
     for (const JsonValue& group : from.at("lights").elements()) group.text(s.groups.emplace_back());
   if (!from.has("encode")) return;
@@ -191,6 +196,19 @@ BakeOrder orderOf(const Plan& plan, const std::string& scene) {
 
 std::string settingsText(const BakeSettings& settings) {
   return settingsJson(settings).dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+bool lacksCopiesAlone(const std::string& there, const BakeSettings& here) {
+  Json less = Json::parse(there, nullptr, false), more = settingsJson(here);
+  if (!less.is_object() || !more.contains("encode")) return false;
+  const Json had = less.value("encode", Json::array()), wanted = more["encode"];
+  less.erase("encode");
+  more.erase("encode");
+  const auto isWanted = [&](const Json& copy) {
+    return std::ranges::find(wanted, copy) != wanted.end();
+  };
+  return textOf(less) == textOf(more) && had.size() < wanted.size() &&
+         std::ranges::all_of(had, isWanted);
 }
 
 std::string toJson(const BakeOrder& order) {

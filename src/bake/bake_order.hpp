@@ -21,6 +21,9 @@ BakeOrder orderOf(const Plan& plan, const std::string& scene);
 // Settings as one JSON object's text.
 std::string settingsText(const BakeSettings& settings);
 
+// Whether `there`, of another bake, says the same but for copies that it does not ask for.
+bool lacksCopiesAlone(const std::string& there, const BakeSettings& here);
+
 std::string toJson(const BakeOrder& order);
 // Errors (ErrorKind::Input): every fault, one a line.
 Result<BakeOrder> orderFrom(std::string_view text, const std::string& name);

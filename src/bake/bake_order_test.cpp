@@ -26,11 +26,14 @@ BakeOrder someOrder() {
   order.settings.unwrap = Unwrap::Pairs;
   order.settings.engine = Engine::Octree;
   order.settings.pack = {.side = 512, .gap = 3, .mostMaps = 7};
-  order.settings.sampling = {
-      .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.1f};
+  order.settings.sampling = {.positions = 4,
+                             .finePositions = 8,
+                             .lightSamples = 32,
+                             .emitterSize = 0.1f,
+                             .skyDirections = 64,
+                             .skyPoints = 3};
   order.settings.patchTolerance = 0.3f;
   order.settings.sky = vec3(0.1f, 0.2f, 0.7f);
-  order.settings.skyDirections = 64;
   order.settings.encodings = {Encoding::Png, Encoding::Rgb9e5};
   order.settings.groups = {"lamps", "always-on"};
   return order;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/light_set.hpp"
 #include "bake/seconds.hpp"
 
 namespace lucerna::bake {
@@ -15,6 +16,8 @@ using scene::PlacedLight;
 // Of a disc beyond a straight edge that all of them miss there is 1 %; of what shows through a gap
 // it may be all, so whoever has a neighbour that does not agree is asked, too.
 constexpr int kRimPoints = 8;
+// Of one of many lights that are the sky: beyond an edge there may be 9 % of its disc.
+constexpr int kSkyRimPoints = 4;
 
 // That are sooner traced than it is found that nothing is in their way, which takes as long as 50
 // and is so of one block in twenty at most, in scenes that are not empty.
@@ -262,6 +265,13 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
     return !same && glm::dot(to, to) < near * near;
   };
   unsure_.clear();
+  bool anySeen = false, anyBlocked = false;
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+    if (full_[i] <= 0.f || asked_[i] <= 0.f) continue;
+    anySeen = anySeen || seen_[i] != vec3(0.f);
+    anyBlocked = anyBlocked || seen_[i] != vec3(asked_[i]);
+  }
+  if (!anySeen || !anyBlocked) return;
   for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
     if (full_[i] <= 0.f || fine_[i]) continue;
     std::uint32_t k = tile.first;
@@ -273,7 +283,7 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
-  const int count = settings_.lightSamples;
+  const int count = pointsOf(light);
   const auto askSpiral = [&](int first, int step) {
     gather(samples);
     for (int i = first; !unsure_.empty() && i < count; i += step)
@@ -302,9 +312,10 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
     return;
   }
   gather(samples);
-  for (int i = 0; i < kRimPoints; ++i)
+  const int rim = isOfSky(light) ? kSkyRimPoints : kRimPoints;
+  for (int i = 0; i < rim; ++i)
     ask(light, disc, [&](std::uint16_t) {
-      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints));
+      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(rim));
     });
   countAnswers();
   dropSure(samples, false);
@@ -351,7 +362,7 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   const double tracing = counters.tracingSeconds;
   const bool clear = isClear(samples, light);
   counters.tracingSeconds += secondsSince(start);
-  if (hasSize(light) && settings_.lightSamples > 1) {
+  if (pointsOf(light) > 1) {
     full_.resize(samples.size());
     seen_.resize(samples.size());
     asked_.resize(samples.size());

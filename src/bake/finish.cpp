@@ -5,6 +5,7 @@
 #include "bake/assemble.hpp"
 #include "bake/bake.hpp"
 #include "bake/cancelled.hpp"
+#include "bake/own_files.hpp"
 #include "bake/seams.hpp"
 #include "bake/seconds.hpp"
 #include "bake/unit_log.hpp"

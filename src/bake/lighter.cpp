@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "bake/brightness.hpp"
+#include "bake/light_points.hpp"
+#include "bake/light_set.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -21,6 +23,11 @@ void forTexels(const Samples& samples, const What& what) {
 }
 
 }  // namespace
+
+int Lighter::pointsOf(const PlacedLight& light) const {
+  if (!hasSize(light)) return 1;
+  return isOfSky(light) ? settings_.skyPoints : settings_.lightSamples;
+}
 
 void Lighter::addMeans(const Samples& samples, std::vector<vec3>& texels) const {
   forTexels(samples, [&](std::size_t first, std::size_t end) {

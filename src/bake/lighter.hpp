@@ -28,6 +28,7 @@ struct LighterSettings {
   // Points on each light that has a size, where the first few do not agree on what they see; 1: its
   // middle alone. Each place of a texel's pattern has points of its own.
   int lightSamples = 16;
+  int skyPoints = 16;  // the same on each of the sky's lights (skyLights())
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   // A texel is uneven where its samples deviate by more than this share of its light.
@@ -70,6 +71,8 @@ class Lighter {
   // light() got.
   virtual void lightAgain(const Samples& samples, std::span<const scene::PlacedLight> lights,
                           std::uint32_t light) = 0;
+  // How many points stand for the light.
+  int pointsOf(const scene::PlacedLight& light) const;
   void addMeans(const Samples& samples, std::vector<vec3>& texels) const;
   // Of one light, which sums_ has: adds the texels' means, and starts sums_ again.
   void findUneven(const Samples& samples, std::uint32_t light, std::vector<UnevenTexel>& uneven,

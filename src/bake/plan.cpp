@@ -209,7 +209,7 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   if (!plan.alwaysOn && settings.sky != vec3(0.f))
     plan.warnings.emplace_back("--sky is always on: it is baked if --lights names always-on");
   if (plan.alwaysOn)
-    std::ranges::copy(skyLights(settings.sky, settings.skyDirections),
+    std::ranges::copy(skyLights(settings.sky, settings.sampling.skyDirections),
                       std::back_inserter(plan.groups[0].lights));
   plan.hash = hashOf(plan);
   addWarnings(plan);

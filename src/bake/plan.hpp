@@ -26,15 +26,29 @@ struct Sampling {
   int finePositions;  // the same of texels at the edges of shadows; 0: no others
   int lightSamples;   // points on a light with a size, see LighterSettings
   float emitterSize;  // of an emitting surface for one ray / its distance
+  int skyDirections;  // lights that stand for the sky, see skyLights()
+  int skyPoints;      // on each of them, see LighterSettings
   bool operator==(const Sampling&) const = default;
 };
 // The presets of `lucerna bake`.
-inline constexpr Sampling kPreview{
-    .positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f};
-inline constexpr Sampling kStandard{
-    .positions = 1, .finePositions = 0, .lightSamples = 16, .emitterSize = 0.25f};
-inline constexpr Sampling kFinal{
-    .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.05f};
+inline constexpr Sampling kPreview{.positions = 1,
+                                   .finePositions = 0,
+                                   .lightSamples = 1,
+                                   .emitterSize = 0.5f,
+                                   .skyDirections = 64,
+                                   .skyPoints = 16};
+inline constexpr Sampling kStandard{.positions = 1,
+                                    .finePositions = 0,
+                                    .lightSamples = 16,
+                                    .emitterSize = 0.25f,
+                                    .skyDirections = 128,
+                                    .skyPoints = 32};
+inline constexpr Sampling kFinal{.positions = 4,
+                                 .finePositions = 8,
+                                 .lightSamples = 32,
+                                 .emitterSize = 0.05f,
+                                 .skyDirections = 256,
+                                 .skyPoints = 4};
 
 struct Preset {
   const char* name;
@@ -55,8 +69,7 @@ struct BakeSettings {
   // An emitting surface reaches to where it gives a white one no more than this brightness at the
   // scene's exposure; 0: as far as `reach`.
   float faintest = 1.f / 256;
-  vec3 sky{0.f};  // radiance of all directions that meet nothing
-  int skyDirections = 256;
+  vec3 sky{0.f};                    // radiance of all directions that meet nothing
   std::vector<std::string> groups;  // of lights that are baked; empty: all
   // By how much a patch may differ from its light: brightness of a white surface before exposure;
   // absent: 1/1024 of what shows as white at the scene's exposure.

@@ -34,6 +34,7 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
 
 std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
   const LighterSettings settings{.lightSamples = plan.settings.sampling.lightSamples,
+                                 .skyPoints = plan.settings.sampling.skyPoints,
                                  .emitterSize = plan.settings.sampling.emitterSize,
                                  .sceneDiagonal = scene.diagonal,
                                  .sceneBoxW = scene.boxW};

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
+#include "bake/map_copies.hpp"
+#include "bake/own_files.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "image/image_file.hpp"
-#include "image/ktx2.hpp"
 #include "lightmap/lightmap.hpp"
 #include "lightmap/scene_hash.hpp"
 
@@ -33,35 +33,6 @@ vec3 largestOf(const Image& map) {
   return largest;
 }
 
-// What viewers show: sRGB of a white surface at the scene's exposure.
-Image pictureOf(const Image& map, float white) {
-  Image picture(map.width(), map.height(), 3, ComponentType::U8);
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x)
-      for (int c = 0; c < 3; ++c)
-        picture.pixel<std::uint8_t>(x, y)[c] = static_cast<std::uint8_t>(
-            255.f * srgbFromLinear(floatFromHalf(map.pixel<std::uint16_t>(x, y)[c]) / white) +
-            0.5f);
-  return picture;
-}
-
-Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding encoding,
-                               const fs::path& folder, float white) {
-  switch (encoding) {
-    case Encoding::Rgb9e5:
-      return lightmap::writeEntry(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
-                                  encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
-    case Encoding::Bc6h:
-      return lightmap::writeEntry(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
-                                  encodeKtx2({&map, 1}, HdrFormat::Bc6h));
-    case Encoding::Png:
-      break;
-  }
-  const std::string name = fmt::format("map-{:03}.png", index);
-  LUCERNA_TRY(bytes, encodeImage(folder / name, pictureOf(map, white)));
-  return lightmap::writeEntry(folder, name, bytes);
-}
-
 // A map's files: what the manifest says of it, and its picture for the glTF copy.
 struct MapFiles {
   lightmap::MapEntry entry;
@@ -79,7 +50,7 @@ Result<MapFiles> writeMap(const Plan& plan, const Image& map, std::size_t index,
   }
   for (const Encoding encoding : plan.settings.encodings) {
     LUCERNA_TRY(encoded,
-                writeEncoded(map, index, encoding, folder, irradianceOfWhite(*plan.world.scene)));
+                writeCopy(map, index, encoding, folder, irradianceOfWhite(*plan.world.scene)));
     files.entry.encoded.push_back(std::move(encoded));
   }
   files.entry.largest = largestOf(map);
@@ -164,34 +135,7 @@ void describeScene(const Plan& plan, Manifest& manifest) {
              .hash = lightmap::hashText16(lightmap::lightHash(scene, light.light))});
 }
 
-// Removes what the manifest does not name: files of an earlier bake, and of one that was killed.
-void removeOthers(const fs::path& folder, const Manifest& manifest) {
-  std::set<std::string> names{kManifestFile};
-  for (const FileEntry& entry : lightmap::filesOf(manifest)) names.insert(entry.file);
-  std::error_code ignored;
-  std::vector<fs::path> others;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (const std::string name = entry.path().filename().string();
-        isLightmapFile(name) && !names.contains(name))
-      others.push_back(entry.path());
-  for (const fs::path& other : others) fs::remove(other, ignored);
-}
-
 }  // namespace
-
-bool isLightmapFile(const std::string& name) {
-  // Its start, three digits or more, and how it ends.
-  const auto isNumbered = [&](std::string_view start,
-                              std::initializer_list<std::string_view> ends) {
-    if (!name.starts_with(start)) return false;
-    const std::size_t digits = name.find_first_not_of("0123456789", start.size());
-    return digits != std::string::npos && digits >= start.size() + 3 &&
-           std::ranges::find(ends, std::string_view(name).substr(digits)) != ends.end();
-  };
-  return name == kManifestFile || name == kLayoutFile || name == "scene.gltf" ||
-         name == "scene.bin" || isNumbered("patch-", {".bin"}) || isNumbered("tex-", {".png"}) ||
-         isNumbered("map-", {".exr", ".hdr", ".png", ".rgb9e5.ktx2", ".bc6h.ktx2"});
-}
 
 LightmapWriter::LightmapWriter(const Plan& plan, fs::path folder)
     : plan_(plan), folder_(std::move(folder)), layout_(layoutOf(plan)) {
@@ -199,6 +143,7 @@ LightmapWriter::LightmapWriter(const Plan& plan, fs::path folder)
 }
 
 Result<LightmapWriter> LightmapWriter::begin(const Plan& plan, const fs::path& folder) {
+  LUCERNA_TRY_VOID(claimFiles(plan, folder));
   LightmapWriter writer(plan, folder);
   LUCERNA_TRY(entry, lightmap::writeEntry(folder, kLayoutFile, lightmap::toBytes(writer.layout_)));
   writer.manifest_.layout = std::move(entry);
@@ -255,7 +200,7 @@ Status LightmapWriter::end() {
   LUCERNA_TRY_VOID(writeGltf(plan_, layout_, folder_, manifest_.gltf));
   LUCERNA_TRY_VOID(checkGoesOn());
   LUCERNA_TRY_VOID(writeText(folder_ / kManifestFile, lightmap::toJson(manifest_)));
-  removeOthers(folder_, manifest_);
+  removeUnnamed(folder_, manifest_);
   return {};
 }
 

@@ -15,11 +15,11 @@ namespace lucerna::bake {
 
 // Takes a bake part by part, so that no more of it than one part need be in memory: maps, then
 // groups, then the rest. Every file is whole or not there; the manifest comes last, and then files
-// of a bake that it does not name are removed: of an earlier one, or of one that was killed.
-// ErrorKind::Cancelled after Ctrl-C: the manifest is not written.
+// of a bake that it does not name are removed: of an earlier one, or of one that was killed
+// (bake/own_files.hpp). ErrorKind::Cancelled after Ctrl-C: the manifest is not written.
 class LightmapWriter {
  public:
-  // The plan outlives it. Writes the layout.
+  // The plan outlives it. Writes the layout. ErrorKind::Usage: others' files are in the way.
   static Result<LightmapWriter> begin(const Plan& plan, const std::filesystem::path& folder);
 
   // Of all maps: masters, copies in other encodings, pictures for the glTF copy. texels: which of
@@ -46,8 +46,5 @@ class LightmapWriter {
 
 inline constexpr const char *kManifestFile = "manifest.json",  // the last that is written
     *kLayoutFile = "layout.bin";                               // the first
-
-// Whether a file may be one of a bake's, by its name.
-bool isLightmapFile(const std::string& name);
 
 }  // namespace lucerna::bake
