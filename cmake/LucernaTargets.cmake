@@ -63,8 +63,9 @@ function(lucerna_compile_as_test target)
 endfunction()
 
 # lucerna_test(NAME SOURCES ... [DEPENDS targets] [LABELS gl] [ENVIRONMENT A=B]) makes one GoogleTest
-# program and one CTest entry. Tests that need a GL driver carry the label "gl"; the others are unit
-# tests, which the sanitized build runs too (target unit_tests).
+# program and one CTest entry. Tests that need a GL driver carry the label "gl", those that compute
+# long and prove figures, not code, "truth"; the others are unit tests, which the sanitized build
+# runs too (target unit_tests).
 add_custom_target(unit_tests)
 function(lucerna_test name)
   if(NOT LUCERNA_TESTS)

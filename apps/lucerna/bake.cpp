@@ -2,18 +2,21 @@
 
 #include "bake/bake.hpp"
 
-#include <map>
 #include <memory>
 
 #include "bake/bake_order.hpp"
 #include "bake/estimate.hpp"
 #include "bake/hints.hpp"
+#include "bake/map_copies.hpp"
+#include "bake/own_files.hpp"
 #include "bake/preflight.hpp"
 #include "bake/seconds.hpp"
 #include "bake_talk.hpp"
 #include "command_line.hpp"
 #include "core/log.hpp"
 #include "core/parallel.hpp"
+#include "core/text.hpp"
+#include "core/time_text.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::cli {
@@ -29,13 +32,6 @@ struct Options {
   bool resume = false, dryRun = false;
   int threads = 0;
 };
-
-// What the presets stand for.
-const std::map<std::string, bake::Sampling>& presets() {
-  static const std::map<std::string, bake::Sampling> known{
-      {"preview", bake::kPreview}, {"standard", bake::kStandard}, {"final", bake::kFinal}};
-  return known;
-}
 
 // "2/5"
 Result<bake::Shard> shardFromText(const std::string& text) {
@@ -66,12 +62,34 @@ Result<int> dryRun(const bake::Plan& plan, bool json) {
   return 0;
 }
 
+// Removes what a finished bake has left of its work, not what one of other settings goes on with.
+void clearWork(const Options& options, const bake::Plan& plan) {
+  if (bake::isUnderWay(options.folder)) return;
+  const auto order = bake::readOrder(options.folder);
+  if (!order || order->plan == plan.hash) bake::removeWork(options.folder);
+}
+
+// What a finished bake lacks of the copies. False: it is damaged.
+Result<bool> addCopies(const Options& options, const bake::Plan& plan) {
+  if (bake::isUnderWay(options.folder)) return true;
+  const Result<std::size_t> maps = bake::addCopies(plan, options.folder);
+  if (!maps && maps.error().kind != ErrorKind::Input) return maps.error();
+  if (!maps)
+    log::warning("{}; this bakes it again", maps.error().message);
+  else if (*maps > 0)
+    log::info("'{}' had all but copies of {}, which are written now", options.folder,
+              counted(*maps, "map"));
+  return maps.operator bool();
+}
+
 // With --resume: whether nothing is left to do.
 Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
   if (!options.resume) return false;
+  LUCERNA_TRY(sound, addCopies(options, plan));
+  if (!sound) return false;
   const Result<bool> finished = bake::isFinished(plan, options.folder);
   if (finished && *finished) {
-    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
+    clearWork(options, plan);
     log::info("'{}' is finished; nothing is left to do", options.folder);
     return true;
   }
@@ -90,12 +108,12 @@ Result<bake::BakeReport> lightAndFinish(const Options& options, const bake::Plan
   sayReport(report);
   if (options.shard.count == 1) LUCERNA_TRY_VOID(bake::finish(plan, options.folder, report));
   for (const std::string& warning : report.warnings) log::warning("{}", warning);
-  log::info("{} in {:.1f} s",
+  log::info("{} in {}",
             options.shard.count == 1
                 ? fmt::format("wrote {}", options.folder)
                 : fmt::format("finished shard {} of {} in {}", options.shard.index,
                               options.shard.count, options.folder),
-            secondsSince(start));
+            secondsText(secondsSince(start)));
   return report;
 }
 
@@ -110,7 +128,8 @@ Status checkOutput(const Options& options) {
 Result<int> bakeScene(Options& options, bool json) {
   const auto start = Clock::now();
   setThreadCount(options.threads);
-  options.bake.sampling = presets().at(options.preset);
+  for (const bake::Preset& preset : bake::kPresets)
+    if (options.preset == preset.name) options.bake.sampling = preset.sampling;
   if (!options.dryRun) LUCERNA_TRY_VOID(checkOutput(options));
   LUCERNA_TRY(scene, scene::loadScene(options.scene));
   for (const std::string& warning : scene.warnings) log::warning("{}", warning);
@@ -133,6 +152,18 @@ Result<int> bakeScene(Options& options, bool json) {
   }
   if (json) printJson(document);
   return 0;
+}
+
+// With the next step after Ctrl-C.
+Result<int> bakeOrCancel(Options& options, bool json) {
+  auto result = bakeScene(options, json);
+  if (result || result.error().kind != ErrorKind::Cancelled) return result;
+  std::error_code none;
+  if (options.dryRun || !std::filesystem::exists(bake::orderPath(options.folder), none))
+    return error(ErrorKind::Cancelled, "cancelled; nothing was written");
+  return error(ErrorKind::Cancelled,
+               "cancelled; what is lit is kept in '{}': the same command with --resume goes on",
+               options.folder);
 }
 
 void addChartFlags(CLI::App& command, bake::BakeSettings& settings, bake::Asked& asked) {
@@ -174,6 +205,7 @@ void addLightFlags(CLI::App& command, Options& options) {
           "all, or GROUP,GROUP...; always-on is what has none (as the scene's bake hints say, or "
           "all)")
       ->delimiter(',')
+      ->transform(trimmed())
       ->allow_extra_args(false);
   command
       .add_option_function<std::string>(
@@ -202,8 +234,8 @@ void addLightFlags(CLI::App& command, Options& options) {
 void addFileFlags(CLI::App& command, Options& options) {
   command
       .add_option("--patch-tolerance", options.asked.patchTolerance,
-                  "brightness of a white surface by which a group's patch may be off (as the "
-                  "scene's bake hints say, or 1/1024 of white)")
+                  "brightness of a white surface, before exposure, by which a group's patch may be "
+                  "off (as the scene's bake hints say, or 1/1024 of what shows as white)")
       ->check(between(0, 8));
   command
       .add_option_function<std::vector<std::string>>(
@@ -238,8 +270,9 @@ void addRunFlags(CLI::App& command, Options& options) {
 
 void addBake(CommandLine& line) {
   auto options = std::make_shared<Options>();
-  CLI::App* command = addCommand(line, line.app, "bake", "bake a scene's lights into lightmaps",
-                                 [&line, options] { return bakeScene(*options, line.talk.json); });
+  CLI::App* command =
+      addCommand(line, line.app, "bake", "bake a scene's lights into lightmaps",
+                 [&line, options] { return bakeOrCancel(*options, line.talk.json); });
   command->add_option("SCENE", options->scene, sceneHelp())->required();
   command->add_option("-o,--output", options->folder, "folder of the lightmap");
   command->add_option("--preset", options->preset, "preview, standard or final (standard)")

@@ -7,6 +7,7 @@
 #include "core/log.hpp"
 #include "core/parallel.hpp"
 #include "core/text.hpp"
+#include "core/time_text.hpp"
 
 namespace lucerna::cli {
 namespace {
@@ -41,21 +42,13 @@ Json describe(const bake::SeamReport& seams) {
           {"seconds", seams.seconds}};
 }
 
-// "0.4 s", "12 s", "3:05 min"
-std::string secondsText(double seconds) {
-  if (seconds < 10.) return fmt::format("{:.1f} s", seconds);
-  const auto whole = static_cast<long long>(std::lround(seconds));
-  return whole < 120 ? fmt::format("{} s", whole)
-                     : fmt::format("{}:{:02} min", whole / 60, whole % 60);
-}
-
 }  // namespace
 
 Json describe(const bake::Plan& plan) {
   return {{"scene", plan.world.scene->name},
           {"triangles", plan.world.triangleCount()},
           {"charts", plan.charts.charts.size()},
-          {"texels", plan.texels()},
+          {"texels", plan.coveredTexels()},
           {"maps", plan.packed.packing.maps},
           {"side", plan.settings.pack.side},
           {"occupancy",
@@ -85,8 +78,9 @@ Json describe(const bake::BakeReport& report) {
 
 void sayPlan(const bake::Plan& plan) {
   const int side = plan.settings.pack.side;
-  log::info("{} in {}, {} texels in {} of {} x {}", counted(plan.world.triangleCount(), "triangle"),
-            counted(plan.charts.charts.size(), "chart"), amountText(plan.texels()),
+  log::info("{} in {}, which cover {} texels of {} of {} x {}",
+            counted(plan.world.triangleCount(), "triangle"),
+            counted(plan.charts.charts.size(), "chart"), amountText(plan.coveredTexels()),
             counted(static_cast<std::uint64_t>(plan.packed.packing.maps), "map"), side, side);
 }
 
@@ -113,27 +107,31 @@ Json describe(const bake::Preflight& found) {
 }
 
 Json describe(const bake::Estimate& e) {
-  return {{"sampled_units", e.units},        {"sampled_texels", e.texels},
-          {"emitter_cells", e.emitterCells}, {"prepare_seconds", e.prepareSeconds},
-          {"light_seconds", e.lightSeconds}, {"deviation", e.deviation},
-          {"threads", threadCount()},        {"light_bytes", e.lightBytes},
-          {"finish_bytes", e.finishBytes},   {"log_bytes", e.logBytes}};
+  return {{"sampled_units", e.units},
+          {"emitter_cells", e.emitterCells},
+          {"prepare_seconds", e.prepareSeconds},
+          {"light_seconds", e.lightSeconds},
+          {"deviation", e.deviation},
+          {"threads", threadCount()},
+          {"light_bytes", e.lightBytes},
+          {"finish_bytes", e.finishBytes},
+          {"log_bytes", e.logBytes}};
 }
 
 std::string estimateText(const bake::Plan& plan, const bake::Estimate& e) {
   const std::size_t charts = plan.charts.charts.size();
   std::string text = fmt::format(
-      "charts     {}\ntexels     {}\nmaps       {} of {} x {}, {:.0f} % covered\nlights     ",
-      charts, plan.texels(), plan.packed.packing.maps, plan.settings.pack.side,
+      "charts     {}\ntexels     {} that they cover\nmaps       {} of {} x {}, {:.0f} % covered\n"
+      "lights     ",
+      charts, plan.coveredTexels(), plan.packed.packing.maps, plan.settings.pack.side,
       plan.settings.pack.side,
       100. * bake::occupancy(plan.packed.packing, plan.packed.masks, plan.settings.pack.side));
   text += fmt::format("{}, in {} that switch; {} of surfaces that shine\n", bake::lightCount(plan),
                       counted(plan.groups.size() - 1, "group"), counted(e.emitterCells, "cell"));
-  text += fmt::format(
-      "light      about {}, give or take {}, after {} to prepare, on {}: an estimate, by {} of {} "
-      "units\n",
-      secondsText(e.lightSeconds), secondsText(2. * e.deviation), secondsText(e.prepareSeconds),
-      counted(static_cast<std::uint64_t>(threadCount()), "thread"), e.units, plan.units.size());
+  text += fmt::format("light      {}, after {} to prepare, on {}: an estimate, by {} of {} units\n",
+                      aboutText(e.lightSeconds, 2. * e.deviation), secondsText(e.prepareSeconds),
+                      counted(static_cast<std::uint64_t>(threadCount()), "thread"), e.units,
+                      plan.units.size());
   if (e.lightBytes != 0)
     text += fmt::format("memory     about {} while lighting, {} while writing maps\n",
                         bytesText(e.lightBytes), bytesText(e.finishBytes));

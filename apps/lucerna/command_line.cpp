@@ -105,6 +105,14 @@ CLI::Validator wholeNumber(std::uint64_t min, std::uint64_t max) {
   return CLI::Validator(check, wanted);
 }
 
+CLI::Validator trimmed() {
+  const auto trim = [](std::string& value) -> std::string {
+    CLI::detail::trim(value);
+    return {};
+  };
+  return CLI::Validator(trim, "");
+}
+
 std::string helpText(const CLI::App& app) {
   const CLI::App& command = chosenCommand(app);
   return command.help(command.get_parent() ? fullName(*command.get_parent()) : "");

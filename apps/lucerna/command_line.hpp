@@ -50,6 +50,9 @@ CLI::Validator oneOf(std::vector<std::string> choices);
 CLI::Validator between(double min, double max, const std::string& unit = "");
 CLI::Validator wholeNumber(std::uint64_t min, std::uint64_t max);
 
+// Takes away spaces around the value, as of "a, b".
+CLI::Validator trimmed();
+
 // Throws CLI::ValidationError, which becomes exit code 2.
 template <typename T>
 T orUsageError(const std::string& option, Result<T> result) {

@@ -7,6 +7,7 @@
 
 #include "bake/bake.hpp"
 #include "bake/bake_order.hpp"
+#include "bake/own_files.hpp"
 #include "command_line.hpp"
 #include "core/file.hpp"
 #include "core/log.hpp"
@@ -47,6 +48,7 @@ Result<int> merge(const Options& options, bool json) {
   LUCERNA_TRY(merged, isMerged(options.folder));
   Json document{{"folder", options.folder}, {"finished", true}};
   if (merged) {
+    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
     log::info("'{}' is finished; nothing is left to merge", options.folder);
   } else {
     LUCERNA_TRY(order, bake::readOrder(options.folder));
@@ -65,6 +67,15 @@ Result<int> merge(const Options& options, bool json) {
   }
   if (json) printJson(document);
   return 0;
+}
+
+// With the next step after Ctrl-C.
+Result<int> mergeOrCancel(const Options& options, bool json) {
+  auto result = merge(options, json);
+  if (result || result.error().kind != ErrorKind::Cancelled) return result;
+  return error(ErrorKind::Cancelled,
+               "cancelled; what the shards have lit is kept in '{}': the same command merges it",
+               options.folder);
 }
 
 // inspect
@@ -302,7 +313,8 @@ CLI::App* addFolderCommand(CommandLine& line, CLI::App& group, const char* name,
 void addLightmap(CommandLine& line) {
   CLI::App* group = line.app.add_subcommand("lightmap", "join parts of a bake, or look at one");
   const auto merging = std::make_shared<Options>(), looking = std::make_shared<Options>();
-  addFolderCommand(line, *group, "merge", "make the maps of what shards have baked", merge, merging)
+  addFolderCommand(line, *group, "merge", "make the maps of what shards have baked", mergeOrCancel,
+                   merging)
       ->add_option("--scene", merging->scene, "where the scene is now (where the shards found it)");
   CLI::App* command = addFolderCommand(
       line, *group, "inspect", "a table of the maps, and pictures of them", inspect, looking);

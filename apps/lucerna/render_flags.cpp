@@ -23,6 +23,7 @@ void addLightmapFlags(CLI::App& command, app::RenderSettings& settings) {
   addRepeatable(command, "--lights-off", settings.lightsOff,
                 "GROUP,GROUP... of the lightmap's lights that are off; repeatable")
       ->delimiter(',')
+      ->transform(trimmed())
       ->needs(lightmap);
 }
 

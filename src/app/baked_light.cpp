@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "bake/light_set.hpp"
 #include "core/log.hpp"
 #include "core/text.hpp"
 #include "lightmap/place.hpp"
@@ -24,13 +25,26 @@ bool isAmong(const std::vector<std::string>& names, const std::string& name) {
 
 Status checkGroups(const lightmap::Manifest& manifest, const std::vector<std::string>& wanted) {
   const std::vector<std::string> groups = groupsOf(manifest);
-  for (const std::string& group : wanted)
-    if (!isAmong(groups, group))
-      return error(
-          ErrorKind::Usage, "--lights-off: '{}' is no group of lights in this lightmap{}; {}",
-          group, didYouMean(group, groups),
-          groups.empty() ? "it has none that could be switched" : "wanted one of " + join(groups));
+  const std::string there = groups.empty() ? "the lightmap has none that could be switched"
+                                           : "wanted one of " + join(groups);
+  for (const std::string& group : wanted) {
+    if (isAmong(groups, group)) continue;
+    if (group == bake::kAlwaysOn)
+      return error(ErrorKind::Usage,
+                   "--lights-off: what is always on cannot be switched off: its light is in the "
+                   "maps, not in a patch; {}",
+                   there);
+    return error(ErrorKind::Usage,
+                 "--lights-off: '{}' is no group of lights in this lightmap{}; {}", group,
+                 didYouMean(group, groups), there);
+  }
   return {};
+}
+
+// "'lamp' of group 'desk'", "'sun', always-on"
+std::string describe(const std::string& name, const std::string& group) {
+  return group.empty() ? fmt::format("'{}', {}", name, bake::kAlwaysOn)
+                       : fmt::format("'{}' of group '{}'", name, group);
 }
 
 Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene) {
@@ -43,9 +57,10 @@ Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene)
     const scene::Light& now = scene.lights[light.light];
     if (now.name != light.name || now.group != light.group)
       return error(ErrorKind::Input,
-                   "light {} of '{}' is '{}' of group '{}', and when the lightmap was baked it was "
-                   "'{}' of group '{}'; bake it again",
-                   light.light, scene.name, now.name, now.group, light.name, light.group);
+                   "light {} of '{}' is {}, and when the lightmap was baked it was {}; bake it "
+                   "again",
+                   light.light, scene.name, describe(now.name, now.group),
+                   describe(light.name, light.group));
   }
   const std::string& wanted = lightmap.manifest.geometryHash;
   if (!wanted.empty() && wanted != lightmap::hashText16(lightmap::geometryHash(scene)))

@@ -197,6 +197,9 @@ TEST_F(BakedFolderTest, AGroupThatIsOffGivesNoAmbientLightEither) {
   EXPECT_EQ(error.kind, ErrorKind::Usage);
   EXPECT_THAT(error.message, HasSubstr("'lamp' is no group of lights in this lightmap (did you "
                                        "mean 'lamps'?); wanted one of lamps"));
+  settings_.lightsOff = {"always-on"};
+  EXPECT_THAT(errorOf().message, HasSubstr("what is always on cannot be switched off: its light is "
+                                           "in the maps, not in a patch; wanted one of lamps"));
 }
 
 TEST_F(BakedFolderTest, AGroupStartsAsTheSceneHasIt) {
@@ -228,6 +231,7 @@ TEST_F(BakedFolderTest, SaysWhichLightsHaveChanged) {
   EXPECT_THAT(said(), HasSubstr("1 of the 1 lights of the lightmap have changed"));
   scene_.lights[0].name = "another";
   EXPECT_THAT(errorOf().message, HasSubstr("light 0 of"));
+  EXPECT_THAT(errorOf().message, HasSubstr("is 'another', always-on, and when"));
 }
 
 TEST_F(BakedFolderTest, SaysWhatDoesNotFit) {

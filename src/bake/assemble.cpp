@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <span>
-#include <tuple>
 
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
@@ -11,10 +10,12 @@
 namespace lucerna::bake {
 namespace {
 
+using lightmap::HalfTiles;
 using Rgb = std::array<std::uint16_t, 3>;
 
-vec3 colorOf(const std::uint16_t* rgb) {
-  return {floatFromHalf(rgb[0]), floatFromHalf(rgb[1]), floatFromHalf(rgb[2])};
+// step: between red, green and blue.
+vec3 colorOf(const std::uint16_t* red, std::size_t step) {
+  return {floatFromHalf(red[0]), floatFromHalf(red[step]), floatFromHalf(red[2 * step])};
 }
 Rgb halves(vec3 v) {
   return {halfFromFloat(v.x), halfFromFloat(v.y), halfFromFloat(v.z)};
@@ -61,51 +62,51 @@ void dilateMap(Image& image, const MapTexels& texels, int map) {
       if (texels.has(map, {x, y})) continue;
       const Donors donors(texels, map, {x, y});
       if (donors.steps().empty()) continue;
-      const vec3 light = donors.light(
-          [&](ivec2 step) { return colorOf(image.pixel<std::uint16_t>(x + step.x, y + step.y)); });
+      const vec3 light = donors.light([&](ivec2 step) {
+        return colorOf(image.pixel<std::uint16_t>(x + step.x, y + step.y), 1);
+      });
       std::ranges::copy(halves(light), image.pixel<std::uint16_t>(x, y));
     }
 }
 
-auto orderOf(const LitTexel& t) {
-  return std::tuple(t.map, t.y, t.x);
+void put(HalfTiles& group, int map, ivec2 p, const Rgb& rgb) {
+  std::uint16_t* to = group.add(static_cast<std::uint16_t>(map), p.x, p.y);
+  for (std::size_t c = 0; c < 3; ++c) to[c * lightmap::kTileTexels] = rgb[c];
 }
 
-LitTexel moved(const LitTexel& t, ivec2 step) {
-  return {.map = t.map,
-          .x = static_cast<std::uint16_t>(t.x + step.x),
-          .y = static_cast<std::uint16_t>(t.y + step.y)};
-}
-
-// The texels beside lit ones that the scene does not touch, each once, dark.
-std::vector<LitTexel> unlitBeside(const std::vector<LitTexel>& lit, const MapTexels& texels) {
-  std::vector<LitTexel> found;
-  for (const LitTexel& from : lit)
-    for (const ivec2 step : kAround) {
-      const ivec2 p = ivec2(from.x, from.y) + step;
-      const bool within = p.x >= 0 && p.y >= 0 && p.x < texels.side && p.y < texels.side;
-      if (within && !texels.has(from.map, p)) found.push_back(moved(from, step));
-    }
-  std::ranges::sort(found, {}, orderOf);
-  const auto again = std::ranges::unique(found, {}, orderOf);
-  found.erase(again.begin(), again.end());
+// What of it is beside its lit texels and not touched by the scene.
+struct Beside {
+  std::uint16_t map;
+  ivec2 p;
+  Rgb rgb;
+};
+std::vector<Beside> besideLit(HalfTiles& group, const MapTexels& texels) {
+  HalfTiles seen(1);
+  std::vector<Beside> found;
+  for (std::size_t slot = 0; slot < group.tiles().size(); ++slot)
+    group.forTexelsOf(slot, [&](std::uint16_t map, int x, int y, const std::uint16_t*) {
+      for (const ivec2 step : kAround) {
+        const ivec2 p = ivec2(x, y) + step;
+        const bool within = p.x >= 0 && p.y >= 0 && p.x < texels.side && p.y < texels.side;
+        if (!within || texels.has(map, p) || seen.find(map, p.x, p.y)) continue;
+        seen.add(map, p.x, p.y);
+        found.push_back({map, p, {}});
+      }
+    });
   return found;
 }
 
 // The light of one group spreads into the same texels by the same rule.
-void dilateGroup(std::vector<LitTexel>& lit, const MapTexels& texels) {
-  std::ranges::sort(lit, {}, orderOf);
-  std::vector<LitTexel> filled = unlitBeside(lit, texels);
-  for (LitTexel& texel : filled)
-    texel.rgb = halves(Donors(texels, texel.map, {texel.x, texel.y}).light([&](ivec2 step) {
-      const LitTexel wanted = moved(texel, step);
-      const auto at = std::ranges::lower_bound(lit, orderOf(wanted), {}, orderOf);
-      return at != lit.end() && orderOf(*at) == orderOf(wanted) ? colorOf(at->rgb.data())
-                                                                : vec3(0.f);
+void dilateGroup(HalfTiles& group, const MapTexels& texels) {
+  std::vector<Beside> filled = besideLit(group, texels);
+  for (Beside& beside : filled)
+    beside.rgb = halves(Donors(texels, beside.map, beside.p).light([&](ivec2 step) {
+      const ivec2 from = beside.p + step;
+      const std::uint16_t* red = group.find(beside.map, from.x, from.y);
+      return red ? colorOf(red, lightmap::kTileTexels) : vec3(0.f);
     }));
-  std::erase_if(filled, [](const LitTexel& t) { return t.rgb == Rgb{}; });
-  lit.insert(lit.end(), filled.begin(), filled.end());
-  std::ranges::sort(lit, {}, orderOf);
+  for (const Beside& beside : filled)
+    if (beside.rgb != Rgb{}) put(group, beside.map, beside.p, beside.rgb);
 }
 
 // Whether the texel is one that the chart was packed by. What it touches by less may be another's.
@@ -122,6 +123,13 @@ bool MapTexels::isBeside(int map, ivec2 p) const {
          std::ranges::any_of(kAround, [&](ivec2 step) { return has(map, p + step); });
 }
 
+std::uint64_t mostGroupBytes(const Plan& plan) {
+  constexpr std::uint64_t kEach = 3, kLittle = 32 << 20;  // a texel of the maps; at least
+  const auto side = static_cast<std::uint64_t>(plan.settings.pack.side);
+  const auto maps = static_cast<std::uint64_t>(plan.packed.packing.maps);
+  return std::max(kEach * side * side * maps, kLittle);
+}
+
 BakedLight emptyLight(const Plan& plan) {
   BakedLight baked;
   const int side = plan.settings.pack.side;
@@ -131,11 +139,12 @@ BakedLight emptyLight(const Plan& plan) {
     list->assign(count, std::vector<bool>(static_cast<std::size_t>(side) * side));
   for (std::size_t i = 0; i < count; ++i)
     baked.maps.emplace_back(side, side, 3, ComponentType::Half);
-  baked.groups.resize(plan.groups.size());
+  baked.groups.resize(plan.groups.size(), HalfTiles(3));
   return baked;
 }
 
-void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light) {
+void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light,
+               const GroupRange& groups) {
   for (std::uint32_t b = 0; b < unit.blocks; ++b) {
     const Block& block = plan.blocks[unit.firstBlock + b];
     const BlockLight& blockLight = light.blocks[b];
@@ -157,15 +166,13 @@ void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const Unit
             hasBit(blockLight.hidden, index);
         if (!touched) continue;
         for (const GroupLight& group : blockLight.groups) {
+          if (!groups.has(group.group)) continue;
           const Rgb rgb{group.rgb[at], group.rgb[at + 1], group.rgb[at + 2]};
           if (group.group == 0)
             std::ranges::copy(
                 rgb, baked.maps[static_cast<std::size_t>(map)].pixel<std::uint16_t>(p.x, p.y));
           else if (rgb != Rgb{})
-            baked.groups[group.group].push_back({.map = static_cast<std::uint16_t>(map),
-                                                 .x = static_cast<std::uint16_t>(p.x),
-                                                 .y = static_cast<std::uint16_t>(p.y),
-                                                 .rgb = rgb});
+            put(baked.groups[group.group], map, p, rgb);
         }
         at += 3;
       }

@@ -6,6 +6,7 @@
 #include "bake/plan.hpp"
 #include "bake/unit_light.hpp"
 #include "image/image.hpp"
+#include "lightmap/texel_tiles.hpp"
 
 namespace lucerna::bake {
 
@@ -26,24 +27,31 @@ struct MapTexels {
   bool isBeside(int map, ivec2 p) const;
 };
 
-// One group's light where there is any: irradiance.
-struct LitTexel {
-  std::uint16_t map = 0, x = 0, y = 0;
-  std::array<std::uint16_t, 3> rgb{};  // half floats
+// Of Plan::groups.
+struct GroupRange {
+  std::uint32_t first = 0, last = 0xffffffffu;  // one after it
+  bool has(std::uint32_t group) const { return first <= group && group < last; }
 };
+
+// Groups take memory while they are here, so whoever has many puts in some at a time: as many as
+// take mostGroupBytes() together, at kLitBytes a texel (six, and those of tiles that are not full).
+inline constexpr std::uint64_t kLitBytes = 8;
+std::uint64_t mostGroupBytes(const Plan& plan);
 
 struct BakedLight {
   MapTexels texels;
-  std::vector<Image> maps;                    // Half RGB, of Plan::groups[0]
-  std::vector<std::vector<LitTexel>> groups;  // as Plan::groups; [0] is empty
+  std::vector<Image> maps;                  // Half RGB, of Plan::groups[0]
+  std::vector<lightmap::HalfTiles> groups;  // as Plan::groups, RGB where there is any; [0] is empty
 };
 
 BakedLight emptyLight(const Plan& plan);
-void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light);
+// The light of these groups, and what the unit's texels are.
+void putInMaps(BakedLight& baked, const Plan& plan, const Unit& unit, const UnitLight& light,
+               const GroupRange& groups = {});
 
 // Gives texels beside those that the scene touches the light of these, for bilinear filtering; in
-// the maps and in the groups. Texels inside of solids get the darkest: what is on the other side of
-// a wall is not to shine through. Sorts the groups by map, row and column.
+// the maps and in the groups that are there. Texels inside of solids get the darkest: what is on
+// the other side of a wall is not to shine through.
 void dilate(BakedLight& baked);
 
 }  // namespace lucerna::bake

@@ -34,24 +34,21 @@ struct Filled {
     for (auto* list : {&baked.texels.touched, &baked.texels.hidden})
       list->assign(1, std::vector<bool>(index({0, kSide})));
     baked.maps.emplace_back(kSide, kSide, 3, ComponentType::Half);
-    baked.groups.resize(2);
+    baked.groups.resize(2, lightmap::HalfTiles(3));
   }
   void touch(ivec2 p, float light) {
     baked.texels.touched[0][index(p)] = true;
     std::ranges::copy(grey(light), baked.maps[0].pixel<std::uint16_t>(p.x, p.y));
     if (light > 0.f)
-      baked.groups[1].push_back({.x = static_cast<std::uint16_t>(p.x),
-                                 .y = static_cast<std::uint16_t>(p.y),
-                                 .rgb = grey(light)});
+      for (std::size_t c = 0; c < 3; ++c)
+        baked.groups[1].add(0, p.x, p.y)[c * lightmap::kTileTexels] = grey(light)[c];
   }
   void hide(ivec2 p) { baked.texels.hidden[0][index(p)] = true; }
-  void expect(ivec2 p, float light) const {
+  void expect(ivec2 p, float light) {
     EXPECT_EQ(floatFromHalf(baked.maps[0].pixel<std::uint16_t>(p.x, p.y)[0]), light)
         << p.x << ' ' << p.y;
-    const auto at = std::ranges::find_if(
-        baked.groups[1], [&](const LitTexel& t) { return t.x == p.x && t.y == p.y; });
-    EXPECT_EQ(at == baked.groups[1].end() ? 0.f : floatFromHalf(at->rgb[0]), light)
-        << p.x << ' ' << p.y;
+    const std::uint16_t* red = baked.groups[1].find(0, p.x, p.y);
+    EXPECT_EQ(red ? floatFromHalf(*red) : 0.f, light) << p.x << ' ' << p.y;
   }
 };
 

@@ -5,12 +5,11 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <fstream>
 #include <mutex>
 
-#include "bake/assemble.hpp"
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
+#include "bake/own_files.hpp"
 #include "bake/seconds.hpp"
 #include "bake/shadow_tracer.hpp"
 #include "bake/unit_log.hpp"
@@ -51,44 +50,6 @@ Status checkWritable(const fs::path& folder) {
                folder.string(), there.string());
 }
 
-// What is named like the temporary files of core/file.hpp.
-bool isTemporary(const fs::path& path) {
-  const std::string name = path.filename().string();
-  return name.starts_with('.') && name.find(".tmp-") != std::string::npos;
-}
-
-// Whether it says that it is a lightmap's; such a file begins so.
-bool isOurs(const fs::path& manifest) {
-  std::string start(64, '\0');
-  std::ifstream(manifest, std::ios::binary).read(start.data(), std::ssize(start));
-  return start.find("\"lucerna\": \"lightmap/") != std::string::npos;
-}
-
-// Whether anything lies there that no bake has made. One that was killed leaves its order in
-// DIR/work or, if that was removed, the layout and what is named like a lightmap's files.
-bool holdsOthers(const fs::path& folder) {
-  std::error_code failed;
-  if (!fs::is_directory(folder, failed)) return false;
-  if (fs::exists(folder / kManifestFile, failed)) return !isOurs(folder / kManifestFile);
-  if (fs::exists(orderPath(folder), failed)) return false;
-  const bool laidOut = fs::exists(folder / kLayoutFile, failed);
-  const fs::directory_iterator files(folder, failed);
-  return std::any_of(begin(files), end(files), [&](const fs::directory_entry& file) {
-    const std::string name = file.path().filename().string();
-    if (name == kWorkFolder) {
-      const fs::directory_iterator work(file.path(), failed);
-      return !std::all_of(begin(work), end(work), isTemporary);
-    }
-    return !isTemporary(file.path()) && !(laidOut && isLightmapFile(name));
-  });
-}
-
-// What logs are checked by: light of another kind of processor differs in the last bits.
-std::uint64_t logHash(const Plan& plan) {
-  const std::string_view processor = rayInstructionSet();
-  return hashCombine(plan.hash, hashBytes(std::as_bytes(std::span(processor))));
-}
-
 // Marks what logs of other divisions into shards hold: no shard of this one writes them.
 Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& shard,
                         std::vector<bool>& done) {
@@ -100,51 +61,6 @@ Status addDoneElsewhere(const Plan& plan, const fs::path& folder, const Shard& s
       if (state.done[i]) done[i] = true;
   }
   return {};
-}
-
-// All logs, put into maps.
-struct Merged {
-  BakedLight baked;
-  std::vector<bool> done;
-  std::vector<fs::path> logs;
-  std::vector<std::string> damage;
-};
-
-Result<Merged> readLogs(const Plan& plan, const fs::path& folder) {
-  Merged merged{.baked = emptyLight(plan),
-                .done = std::vector<bool>(plan.units.size(), false),
-                .logs = logsIn(folder),
-                .damage = {}};
-  Progress progress("reading logs", plan.units.size());
-  for (const fs::path& path : merged.logs) {
-    const auto use = [&](std::uint32_t unit, std::span<const std::byte> payload) -> Status {
-      LUCERNA_TRY_VOID(checkGoesOn());
-      if (merged.done[unit]) return {};
-      const auto light = unitLightFrom(payload, plan, plan.units[unit]);
-      if (!light)
-        return error(ErrorKind::Input, "{}: is damaged; remove it and bake that part again",
-                     path.string());
-      putInMaps(merged.baked, plan, plan.units[unit], *light);
-      merged.done[unit] = true;
-      progress.advance();
-      return {};
-    };
-    LUCERNA_TRY(state, readUnitLog(path, logHash(plan), plan.units.size(), use));
-    merged.damage.insert(merged.damage.end(), state.damage.begin(), state.damage.end());
-  }
-  return merged;
-}
-
-Status checkComplete(const Merged& merged, const fs::path& folder) {
-  const auto missing = std::ranges::count(merged.done, false);
-  if (missing == 0) return {};
-  const std::string damage =
-      merged.damage.empty() ? "" : fmt::format("; {}", fmt::join(merged.damage, "; "));
-  return error(ErrorKind::Failed,
-               "'{}': {} of {} units of light are missing: {}{}; bake these shards with the same "
-               "settings and --resume",
-               folder.string(), missing, merged.done.size(),
-               describeMissing(merged.logs, merged.done), damage);
 }
 
 }  // namespace
@@ -168,10 +84,8 @@ Status checkFolder(const fs::path& folder, bool resume, const Shard& shard) {
     return error(ErrorKind::Usage,
                  "-o: '{}' holds an unfinished bake; go on with --resume, or remove '{}'",
                  folder.string(), (folder / kWorkFolder).string());
-  if (holdsOthers(folder))
-    return error(ErrorKind::Usage,
-                 "-o: '{}' holds files that are none of a lightmap; wanted a new or empty folder",
-                 folder.string());
+  if (const Status others = checkNoOthers(folder); !others)
+    return error(others.error().kind, "-o: {}", others.error().message);
   return checkWritable(folder);
 }
 
@@ -208,15 +122,6 @@ Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
 
 bool isUnderWay(const fs::path& folder) {
   return std::ranges::any_of(logsIn(folder), isBusy);
-}
-
-void removeWork(const fs::path& folder) {
-  std::error_code ignored;
-  fs::remove_all(folder / kWorkFolder, ignored);
-  std::vector<fs::path> left;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (isTemporary(entry.path())) left.push_back(entry.path());
-  for (const fs::path& path : left) fs::remove(path, ignored);
 }
 
 Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
@@ -261,20 +166,6 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
   report.seconds.light += secondsSince(lit);
   LUCERNA_TRY_VOID(failure.status());
   return checkGoesOn();
-}
-
-Status finish(const Plan& plan, const fs::path& folder, BakeReport& report) {
-  const auto start = Clock::now();
-  LUCERNA_TRY(merged, readLogs(plan, folder));
-  LUCERNA_TRY_VOID(checkComplete(merged, folder));
-  dilate(merged.baked);
-  LUCERNA_TRY_VOID(checkGoesOn());
-  report.seams = closeSeams(plan, merged.baked);
-  LUCERNA_TRY_VOID(checkGoesOn());
-  LUCERNA_TRY_VOID(writeLightmap(plan, merged.baked, folder, report.texels));
-  removeWork(folder);
-  report.seconds.finish += secondsSince(start);
-  return {};
 }
 
 }  // namespace lucerna::bake

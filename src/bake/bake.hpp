@@ -2,7 +2,8 @@
 // second; a plain bake is the only shard and merges at once.
 //
 // While it runs, DIR/work holds what is finished and what was asked for (bake/bake_order.hpp). A
-// finished DIR has the maps and what manifest.json names, and nothing else.
+// finished DIR has the maps and what manifest.json names, and nothing else of a bake's
+// (bake/own_files.hpp).
 #pragma once
 
 #include <filesystem>
@@ -32,8 +33,8 @@ struct BakeReport {
 Status checkIsApart(const std::filesystem::path& folder, const std::string& scene);
 
 // Asks before long work. ErrorKind::Usage: DIR/work holds an unfinished part of the same number and
-// `resume` is not set; DIR is a file, or holds other files than a lightmap's. ErrorKind::Failed: it
-// cannot be written.
+// `resume` is not set; DIR is a file, or holds what is in the way (checkNoOthers()).
+// ErrorKind::Failed: it cannot be written.
 Status checkFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
 // The same, and makes DIR and DIR/work.
 Status prepareFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
@@ -45,9 +46,6 @@ Result<bool> isFinished(const Plan& plan, const std::filesystem::path& folder);
 
 // Whether another process bakes into DIR at the moment.
 bool isUnderWay(const std::filesystem::path& folder);
-
-// Removes DIR/work, and what writers that were killed left in DIR.
-void removeWork(const std::filesystem::path& folder);
 
 // Lights the shard's units that no log has yet, and logs them. ErrorKind::Cancelled after Ctrl-C:
 // what is done is kept.

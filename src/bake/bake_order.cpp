@@ -1,5 +1,6 @@
 #include "bake/bake_order.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -35,7 +36,8 @@ Json settingsJson(const BakeSettings& s) {
             {"emitterSize", number(s.sampling.emitterSize)},
             {"faintest", number(s.faintest)},
             {"sky", {number(s.sky.x), number(s.sky.y), number(s.sky.z)}},
-            {"skyDirections", s.skyDirections},
+            {"skyDirections", s.sampling.skyDirections},
+            {"skyPoints", s.sampling.skyPoints},
             {"engine", s.engine == Engine::Octree ? "octree" : "embree"}};
   if (s.patchTolerance) json["patchTolerance"] = number(*s.patchTolerance);
   if (std::isfinite(s.reach)) json["reach"] = number(s.reach);
@@ -48,10 +50,12 @@ Json settingsJson(const BakeSettings& s) {
 void readSettings(const JsonValue& from, BakeSettings& s) {
   if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions",
                     "finePositions", "lightSamples", "emitterSize", "faintest", "sky",
-                    "skyDirections", "engine", "patchTolerance", "reach", "lights", "encode"}))
+                    "skyDirections", "skyPoints", "engine", "patchTolerance", "reach", "lights",
+                    "encode"}))
     return;
   from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "finePositions",
-                "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "engine"});
+                "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "skyPoints",
+                "engine"});
   int choice = 0;
   if (from.readChoice("unwrap", {"charts", "pairs"}, choice))
     s.unwrap = choice == 0 ? Unwrap::Charts : Unwrap::Pairs;
@@ -70,7 +74,8 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
     s.patchTolerance = tolerance;
   from.read("reach", s.reach, {0.01f, 1e6f, "m"});
   from.read("sky", s.sky, {0.f, 1e6f, ""});
-  from.readInteger("skyDirections", s.skyDirections, 1, 1 << 20);
+  from.readInteger("skyDirections", s.sampling.skyDirections, 2, 1 << 20);
+  from.readInteger("skyPoints", s.sampling.skyPoints, 2, 1 << 16);
   if (from.has("lights"))
     for (const JsonValue& group : from.at("lights").elements()) group.text(s.groups.emplace_back());
   if (!from.has("encode")) return;
@@ -84,23 +89,58 @@ std::string textOf(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-// "density is 10 there, 20 here"; one that is missing is "none".
-std::string differences(const Json& there, const Json& here) {
+// Of the settings that a flag sets by itself.
+constexpr std::pair<const char*, const char*> kFlags[]{{"density", "--density"},
+                                                       {"size", "--size"},
+                                                       {"padding", "--padding"},
+                                                       {"mostMaps", "--most-maps"},
+                                                       {"unwrap", "--unwrap"},
+                                                       {"lights", "--lights"},
+                                                       {"patchTolerance", "--patch-tolerance"},
+                                                       {"reach", "--reach"},
+                                                       {"faintest", "--faintest"},
+                                                       {"sky", "--sky"},
+                                                       {"encode", "--encode"},
+                                                       {"engine", "--engine"}};
+
+// A preset's name, or what stands in place of one.
+std::string presetOf(const Sampling& s) {
+  for (const Preset& preset : kPresets)
+    if (s == preset.sampling) return preset.name;
+  return fmt::format("none of this version's ({}, {}, {}, {})", s.positions, s.finePositions,
+                     s.lightSamples, s.emitterSize);
+}
+
+// As the command line takes it.
+std::string valueText(const Json& value) {
+  if (value.is_string()) return value;
+  if (!value.is_array()) return textOf(value);
   std::vector<std::string> list;
-  const auto compare = [&](const std::string& key) {
-    const std::string a = there.contains(key) ? textOf(there[key]) : "none";
-    const std::string b = here.contains(key) ? textOf(here[key]) : "none";
-    if (a != b) list.push_back(fmt::format("{} is {} there, {} here", key, a, b));
+  for (const Json& each : value) list.push_back(valueText(each));
+  return fmt::format("{}", fmt::join(list, ","));
+}
+
+// "--density is 10 there, 20 here"
+std::string differences(const BakeSettings& there, const BakeSettings& here) {
+  std::vector<std::string> list;
+  const auto compare = [&](const char* flag, const std::string& a, const std::string& b) {
+    if (a != b) list.push_back(fmt::format("{} is {} there, {} here", flag, a, b));
   };
-  for (const auto& [key, value] : there.items()) compare(key);
-  for (const auto& [key, value] : here.items())
-    if (!there.contains(key)) compare(key);
+  compare("--preset", presetOf(there.sampling), presetOf(here.sampling));
+  const Json a = settingsJson(there), b = settingsJson(here);
+  for (const auto& [key, flag] : kFlags) {
+    const char* otherwise = std::string_view(key) == "lights" ? "all" : "none";
+    const auto value = [&](const Json& of) {
+      return of.contains(key) ? valueText(of[key]) : otherwise;
+    };
+    compare(flag, value(a), value(b));
+  }
   return fmt::format("{}", fmt::join(list, ", "));
 }
 
 Status checkSame(const BakeOrder& there, const BakeOrder& here, const fs::path& folder) {
   const std::string work = (folder / kWorkFolder).string();
-  const std::string found = differences(settingsJson(there.settings), settingsJson(here.settings));
+  const std::string found = differences(there.settings, here.settings);
   if (!found.empty())
     return error(
         ErrorKind::Usage,
@@ -158,6 +198,19 @@ std::string settingsText(const BakeSettings& settings) {
   return settingsJson(settings).dump(1, ' ', false, Json::error_handler_t::replace);
 }
 
+bool lacksCopiesAlone(const std::string& there, const BakeSettings& here) {
+  Json less = Json::parse(there, nullptr, false), more = settingsJson(here);
+  if (!less.is_object() || !more.contains("encode")) return false;
+  const Json had = less.value("encode", Json::array()), wanted = more["encode"];
+  less.erase("encode");
+  more.erase("encode");
+  const auto isWanted = [&](const Json& copy) {
+    return std::ranges::find(wanted, copy) != wanted.end();
+  };
+  return textOf(less) == textOf(more) && had.size() < wanted.size() &&
+         std::ranges::all_of(had, isWanted);
+}
+
 std::string toJson(const BakeOrder& order) {
   const Json document{{"lucerna", kFormat},
                       {"scene", order.scene},
@@ -198,7 +251,11 @@ Result<BakeOrder> readOrder(const fs::path& folder) {
                  "bake --shard` was given",
                  folder.string(), path.lexically_relative(folder).string());
   LUCERNA_TRY(text, readText(path));
-  return orderFrom(text, path.string());
+  auto order = orderFrom(text, path.string());
+  if (!order)
+    return error(ErrorKind::Input, "{}; remove '{}' and bake anew", order.error().message,
+                 (folder / kWorkFolder).string());
+  return order;
 }
 
 Status keepOrder(const fs::path& folder, const BakeOrder& order) {

@@ -18,8 +18,11 @@ struct BakeOrder {
 
 BakeOrder orderOf(const Plan& plan, const std::string& scene);
 
-// Settings by the names of the command line's flags, as one JSON object's text.
+// Settings as one JSON object's text.
 std::string settingsText(const BakeSettings& settings);
+
+// Whether `there`, of another bake, says the same but for copies that it does not ask for.
+bool lacksCopiesAlone(const std::string& there, const BakeSettings& here);
 
 std::string toJson(const BakeOrder& order);
 // Errors (ErrorKind::Input): every fault, one a line.
@@ -29,8 +32,8 @@ Result<BakeOrder> orderFrom(std::string_view text, const std::string& name);
 Result<BakeOrder> readOrder(const std::filesystem::path& folder);
 
 // Writes it if there is none. ErrorKind::Usage if there is one of other settings, of a scene that
-// was another then, or of another kind of processor; it names what differs. The same scene may lie
-// elsewhere.
+// was another then, or of another kind of processor; it names the flags that differ. The same scene
+// may lie elsewhere.
 Status keepOrder(const std::filesystem::path& folder, const BakeOrder& order);
 
 }  // namespace lucerna::bake

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "bake/shards.hpp"
+#include "core/file.hpp"
 #include "core/test_folder.hpp"
 
 namespace lucerna::bake {
@@ -25,11 +26,14 @@ BakeOrder someOrder() {
   order.settings.unwrap = Unwrap::Pairs;
   order.settings.engine = Engine::Octree;
   order.settings.pack = {.side = 512, .gap = 3, .mostMaps = 7};
-  order.settings.sampling = {
-      .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.1f};
+  order.settings.sampling = {.positions = 4,
+                             .finePositions = 8,
+                             .lightSamples = 32,
+                             .emitterSize = 0.1f,
+                             .skyDirections = 64,
+                             .skyPoints = 3};
   order.settings.patchTolerance = 0.3f;
   order.settings.sky = vec3(0.1f, 0.2f, 0.7f);
-  order.settings.skyDirections = 64;
   order.settings.encodings = {Encoding::Png, Encoding::Rgb9e5};
   order.settings.groups = {"lamps", "always-on"};
   return order;
@@ -72,12 +76,14 @@ TEST(BakeOrder, WhatDiffersIsNamed) {
   BakeOrder other = first;
   other.settings.pack.side = 1024;
   other.settings.groups.clear();
+  other.settings.sky = vec3(0.5f, 1.f, 0.f);
   const Status refused = keepOrder(folder.path(), other);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, ErrorKind::Usage);
-  EXPECT_THAT(refused.error().message, HasSubstr("size is 512 there, 1024 here"));
   EXPECT_THAT(refused.error().message,
-              HasSubstr("lights is [\"lamps\",\"always-on\"] there, none"));
+              HasSubstr("other settings: --size is 512 there, 1024 here, --lights is "
+                        "lamps,always-on there, all here, --sky is 0.1,0.2,0.7 there, 0.5,1,0 "
+                        "here; give the same"));
   BakeOrder moved = first;
   moved.scene = "elsewhere.obj";
   EXPECT_TRUE(keepOrder(folder.path(), moved));  // the plan says that it is the same
@@ -90,6 +96,32 @@ TEST(BakeOrder, WhatDiffersIsNamed) {
   elsewhere.processor = "sse4.2";
   EXPECT_THAT(keepOrder(folder.path(), elsewhere).error().message,
               HasSubstr("of processors with avx2, this one has sse4.2"));
+}
+
+TEST(BakeOrder, APresetDiffersByItsName) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder / kWorkFolder);
+  BakeOrder order{.scene = "a.obj", .plan = 0, .processor = "avx2", .settings = {}};
+  ASSERT_TRUE(keepOrder(folder.path(), order));
+  order.settings.sampling = kFinal;
+  EXPECT_THAT(keepOrder(folder.path(), order).error().message,
+              HasSubstr("other settings: --preset is standard there, final here; give"));
+  ++order.settings.sampling.positions;
+  EXPECT_THAT(keepOrder(folder.path(), order).error().message,
+              HasSubstr("standard there, none of this version's (5, 8, 32, 0.05) here; give"));
+}
+
+TEST(BakeOrder, DamageSaysWhatToDo) {
+  const TestFolder folder;
+  std::filesystem::create_directories(folder / kWorkFolder);
+  ASSERT_TRUE(keepOrder(folder.path(), someOrder()));
+  std::string text = toJson(someOrder());
+  text[text.find("avx2")] ^= '\x80';
+  ASSERT_TRUE(writeText(orderPath(folder.path()), text));
+  const auto order = readOrder(folder.path());
+  ASSERT_FALSE(order);
+  EXPECT_THAT(order.error().message, HasSubstr("bake.json:5:16: found the byte 0xE1"));
+  EXPECT_THAT(order.error().message, HasSubstr("work' and bake anew"));
 }
 
 TEST(BakeOrder, OfThoseWhoStartTogetherOneCounts) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bake/light_set.hpp"
 #include "bake/seconds.hpp"
 
 namespace lucerna::bake {
@@ -15,6 +16,12 @@ using scene::PlacedLight;
 // Of a disc beyond a straight edge that all of them miss there is 1 %; of what shows through a gap
 // it may be all, so whoever has a neighbour that does not agree is asked, too.
 constexpr int kRimPoints = 8;
+// Of one of many lights that are the sky: beyond an edge there may be 9 % of its disc.
+constexpr int kSkyRimPoints = 4;
+
+// That are sooner traced than it is found that nothing is in their way, which takes as long as 50
+// and is so of one block in twenty at most, in scenes that are not empty.
+constexpr std::size_t kFewRays = 1024;
 
 float distanceTo(const Aabb& box, vec3 p) {
   return glm::length(glm::max(glm::max(box.min - p, p - box.max), vec3(0.f)));
@@ -154,6 +161,7 @@ void BlockLighter::trace() {
   shares_.resize(lit_.size());
   counters.pairs += lit_.size();
   counters.rays += lit_.size();
+  if (lit_.empty()) return;
   const auto start = Clock::now();
   tracer_.trace(rays_, shares_);
   counters.tracingSeconds += secondsSince(start);
@@ -165,7 +173,8 @@ void BlockLighter::forgetRays() {
 }
 
 bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) const {
-  if (!samples.planar) return false;
+  const std::size_t points = hasSize(light) && settings_.lightSamples > 1 ? kRimPoints : 1;
+  if (!samples.planar || points * samples.size() < kFewRays) return false;
   if (light.kind == LightKind::Directional)
     return !occluders_.anyIn(shaftAlong(-light.directionW,
                                         std::sin(0.5f * std::min(light.angle, kPi)),
@@ -256,6 +265,13 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
     return !same && glm::dot(to, to) < near * near;
   };
   unsure_.clear();
+  bool anySeen = false, anyBlocked = false;
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
+    if (full_[i] <= 0.f || asked_[i] <= 0.f) continue;
+    anySeen = anySeen || seen_[i] != vec3(0.f);
+    anyBlocked = anyBlocked || seen_[i] != vec3(asked_[i]);
+  }
+  if (!anySeen || !anyBlocked) return;
   for (std::uint32_t i = tile.first; i < tile.first + tile.count; ++i) {
     if (full_[i] <= 0.f || fine_[i]) continue;
     std::uint32_t k = tile.first;
@@ -267,16 +283,13 @@ void BlockLighter::findBeside(const Samples& s, const Tile& tile) {
 // Of the samples in unsure_: seen_ / asked_ is the share of the light that they see.
 void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const PlacedLight& light) {
   const Disc disc(light, tile.boundsW.center());
-  const int count = lightSamples_;
-  const bool shared = samples.perTexel > 1 && count < settings_.lightSamples;
+  const int count = pointsOf(light), places = static_cast<int>(samples.perTexel);
   const auto askSpiral = [&](int first, int step) {
     gather(samples);
     for (int i = first; !unsure_.empty() && i < count; i += step)
       ask(light, disc, [&](std::uint16_t place) {
-        // Few points from each place are one spiral of all of them.
-        const auto places = static_cast<int>(samples.perTexel);
-        return shared ? spiralPoint(i * places + place, count * places, vec2(0.5f, 0.f))
-                      : spiralPoint(i, count, shiftOf(place, samples.perTexel));
+        return sharesPoints() ? spiralPoint(i * places + place, count * places, vec2(0.5f, 0.f))
+                              : spiralPoint(i, count, shiftOf(place, samples.perTexel));
       });
     countAnswers();
   };
@@ -300,9 +313,10 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
     return;
   }
   gather(samples);
-  for (int i = 0; i < kRimPoints; ++i)
+  const int rim = isOfSky(light) ? kSkyRimPoints : kRimPoints;
+  for (int i = 0; i < rim; ++i)
     ask(light, disc, [&](std::uint16_t) {
-      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(kRimPoints));
+      return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(rim));
     });
   countAnswers();
   dropSure(samples, false);
@@ -349,7 +363,7 @@ void BlockLighter::lightBy(const Samples& samples, const PlacedLight& light) {
   const double tracing = counters.tracingSeconds;
   const bool clear = isClear(samples, light);
   counters.tracingSeconds += secondsSince(start);
-  if (hasSize(light) && lightSamples_ > 1) {
+  if (pointsOf(light) > 1) {
     full_.resize(samples.size());
     seen_.resize(samples.size());
     asked_.resize(samples.size());
@@ -404,13 +418,7 @@ bool BlockLighter::light(const Samples& samples, std::span<const PlacedLight> li
     addMeans(samples, texels);
     return true;
   }
-  if (!found_.empty()) {
-    // Of one place: asking one surface again would ask all of them.
-    if (uneven->around)
-      addMeans(samples, texels);
-    else
-      findUneven(samples, lights, UnevenTexel::kEmitters, *uneven, texels);
-  }
+  if (!found_.empty()) findUneven(samples, lights, UnevenTexel::kEmitters, *uneven, texels);
   dropEven(texels, uneven->texels);
   return true;
 }

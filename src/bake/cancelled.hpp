@@ -7,11 +7,11 @@
 
 namespace lucerna::bake {
 
-// ErrorKind::Cancelled once the user pressed Ctrl-C.
+// ErrorKind::Cancelled once the user pressed Ctrl-C. What is kept and how to go on is said by who
+// was asked to bake or to merge.
 inline Status checkGoesOn() {
   if (!Progress::cancelled()) return {};
-  return error(ErrorKind::Cancelled,
-               "cancelled; what is finished is kept, go on with --resume, or merge again");
+  return error(ErrorKind::Cancelled, "cancelled");
 }
 
 }  // namespace lucerna::bake

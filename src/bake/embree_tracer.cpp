@@ -9,12 +9,16 @@
 #include "bake/overlap.hpp"
 #include "bake/shadow_tracer.hpp"
 #include "core/check.hpp"
+#include "image/vector_math.hpp"
 #include "trace/material_lookup.hpp"
 
 namespace lucerna::bake {
 namespace {
 
 constexpr std::size_t kPacket = 16;
+// Packets that are set before the first of them is traced: Embree reads whole vectors, for which
+// the processor would wait if their parts had just been written.
+constexpr std::size_t kBatch = 4;
 
 // What filters find behind Embree's context.
 struct Context {
@@ -40,11 +44,15 @@ trace::Spot spotOf(const RTCFilterFunctionNArguments& args, unsigned lane) {
 // often it is asked.
 void passHoles(const RTCFilterFunctionNArguments* args) {
   const Holes& holes = *static_cast<const Holes*>(args->geometryUserPtr);
-  for (unsigned lane = 0; lane < args->N; ++lane)
-    if (args->valid[lane] == -1 &&
-        holes.at(RTCHitN_primID(args->hit, args->N, lane),
-                 {RTCHitN_u(args->hit, args->N, lane), RTCHitN_v(args->hit, args->N, lane)}))
-      args->valid[lane] = 0;
+  RTCHitN* const hit = args->hit;
+  int* const valid = args->valid;
+  const unsigned count = args->N;
+  for (unsigned lane = 0; lane < count; ++lane)
+    if (valid[lane] == -1)
+      valid[lane] = holes.at(RTCHitN_primID(hit, count, lane),
+                             {RTCHitN_u(hit, count, lane), RTCHitN_v(hit, count, lane)})
+                        ? 0
+                        : -1;
 }
 
 // Of translucent ones, each of which must be shown once to a ray. Packets that are marked as
@@ -67,41 +75,31 @@ void takeLight(const RTCFilterFunctionNArguments* args) {
 // where it is, and most of what decides is near samples. From lights, and without robust mode, one
 // in a thousand rays of the night city slips through somewhere.
 struct Packet {
-  Packet() {
-    for (unsigned i = 0; i < kPacket; ++i) {
-      rays.time[i] = 0.f;
-      rays.mask[i] = ~0u;
-      rays.id[i] = i;
-      rays.flags[i] = 0;
+  // The rays of the list from `done` on: sixteen, or what is left. Lanes before them have those
+  // before, if there are any, which take part in nothing.
+  void set(const ShadowRays& list, std::size_t done) {
+    const std::size_t count = std::min(kPacket, list.size() - done);
+    begin = list.size() >= kPacket ? kPacket - count : 0;
+    end = begin + count;
+    first = done - begin;
+    if (list.size() >= kPacket) {
+      setAll(&list.toX[first], &list.fromX[first], rays.org_x, rays.dir_x);
+      setAll(&list.toY[first], &list.fromY[first], rays.org_y, rays.dir_y);
+      setAll(&list.toZ[first], &list.fromZ[first], rays.org_z, rays.dir_z);
+    } else {
+      for (std::size_t i = 0; i < kPacket; ++i) setOne(i, list, std::min(i, count - 1));
     }
+    start();
   }
-
-  // Rays of the list from `first` on, into all lanes: there are as many.
-  void setAll(const ShadowRays& list, std::size_t first) {
-    const auto set = [first](const auto& light, const auto& sample, float* origin, float* way) {
-      const float *start = &sample[first], *end = &light[first];
-      for (std::size_t i = 0; i < kPacket; ++i) origin[i] = start[i];
-      for (std::size_t i = 0; i < kPacket; ++i) way[i] = end[i] - start[i];
-    };
-    set(list.fromX, list.toX, rays.org_x, rays.dir_x);
-    set(list.fromY, list.toY, rays.org_y, rays.dir_y);
-    set(list.fromZ, list.toZ, rays.org_z, rays.dir_z);
+  // These rays of the list: sixteen at most.
+  void set(const ShadowRays& list, std::span<const std::size_t> which) {
+    begin = first = 0;
+    end = which.size();
+    for (std::size_t i = 0; i < kPacket; ++i) setOne(i, list, which[std::min(i, end - 1)]);
+    start();
   }
-  void set(std::size_t lane, const ShadowRays& list, std::size_t at) {
-    rays.org_x[lane] = list.toX[at];
-    rays.org_y[lane] = list.toY[at];
-    rays.org_z[lane] = list.toZ[at];
-    rays.dir_x[lane] = list.fromX[at] - list.toX[at];
-    rays.dir_y[lane] = list.fromY[at] - list.toY[at];
-    rays.dir_z[lane] = list.fromZ[at] - list.toZ[at];
-  }
-  // Lanes of [begin, end) take part.
-  void start(std::size_t begin, std::size_t end) {
-    for (std::size_t i = 0; i < kPacket; ++i)
-      rays.tnear[i] = clearOfSample({rays.org_x[i], rays.org_y[i], rays.org_z[i]},
-                                    {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]});
-    std::ranges::fill(rays.tfar, 1.f - kClearOfLight);
-    for (std::size_t i = 0; i < kPacket; ++i) valid[i] = i >= begin && i < end ? -1 : 0;
+  void trace(RTCScene scene, RTCIntersectContext& context) {
+    rtcOccluded16(valid.data(), scene, &context, &rays);
   }
   // Of the lanes that took part those that nothing was in the way of take part again. Whether any.
   bool restart() {
@@ -111,10 +109,54 @@ struct Packet {
   }
   // Below 0: Embree's mark of what is in the way.
   bool isBlocked(std::size_t lane) const { return rays.tfar[lane] < 0.f; }
+  // Sets the list's shares: all or nothing.
+  void answer(std::span<vec3> shares) const {
+    std::array<float, kPacket> share;
+    for (std::size_t i = 0; i < kPacket; ++i) share[i] = isBlocked(i) ? 0.f : 1.f;
+    for (std::size_t i = begin; i < end; ++i) shares[first + i] = vec3(share[i]);
+  }
 
-  alignas(64) RTCRay16 rays{};
-  alignas(64) std::array<int, kPacket> valid{};
+  alignas(64) RTCRay16 rays;
+  alignas(64) std::array<int, kPacket> valid;  // -1: takes part
+  std::size_t begin, end;                      // the lanes that take part, at first
+  std::size_t first;                           // ray of the list that lane 0 has
+
+ private:
+  // `__restrict`: else this does not become vector code.
+  static void setAll(const float* sample, const float* light, float* __restrict origin,
+                     float* __restrict way) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      origin[i] = sample[i];
+      way[i] = light[i] - sample[i];
+    }
+  }
+  void setOne(std::size_t lane, const ShadowRays& list, std::size_t at) {
+    rays.org_x[lane] = list.toX[at];
+    rays.org_y[lane] = list.toY[at];
+    rays.org_z[lane] = list.toZ[at];
+    rays.dir_x[lane] = list.fromX[at] - list.toX[at];
+    rays.dir_y[lane] = list.fromY[at] - list.toY[at];
+    rays.dir_z[lane] = list.fromZ[at] - list.toZ[at];
+  }
+  void start() {
+    for (std::size_t i = 0; i < kPacket; ++i)
+      rays.tnear[i] = clearOfSample({rays.org_x[i], rays.org_y[i], rays.org_z[i]},
+                                    {rays.dir_x[i], rays.dir_y[i], rays.dir_z[i]});
+    std::ranges::fill(rays.tfar, 1.f - kClearOfLight);
+    std::ranges::fill(rays.time, 0.f);
+    std::ranges::fill(rays.mask, ~0u);
+    std::iota(std::begin(rays.id), std::end(rays.id), 0u);
+    std::ranges::fill(rays.flags, 0u);
+    const int from = static_cast<int>(begin), to = static_cast<int>(end);
+    for (int i = 0; i < static_cast<int>(kPacket); ++i) valid[i] = i >= from && i < to ? -1 : 0;
+  }
 };
+
+// The packets get the rays of the list from `first` on.
+LUCERNA_WIDE_VECTORS
+void setPackets(std::span<Packet> packets, const ShadowRays& list, std::size_t first) {
+  for (std::size_t i = 0; i < packets.size(); ++i) packets[i].set(list, first + i * kPacket);
+}
 
 RTCDevice newDevice() {
   RTCDevice device = rtcNewDevice((std::string("isa=") + rayInstructionSet()).c_str());
@@ -160,25 +202,21 @@ class EmbreeTracer final : public ShadowTracer {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    Packet packet;
+    std::array<Packet, kBatch> batch;
     std::vector<std::size_t> behind;  // rays with something translucent in the way
-    for (std::size_t done = 0; done < rays.size(); done += kPacket) {
-      const std::size_t count = std::min(kPacket, rays.size() - done);
-      // The last packet has some of the rays of the one before, which take part in nothing.
-      const std::size_t begin = rays.size() >= kPacket ? kPacket - count : 0;
-      const std::size_t first = done - begin;
-      if (rays.size() >= kPacket)
-        packet.setAll(rays, first);
-      else
-        for (std::size_t i = 0; i < kPacket; ++i) packet.set(i, rays, std::min(i, count - 1));
-      packet.start(begin, begin + count);
-      rtcOccluded16(packet.valid.data(), solidScene_, &context, &packet.rays);
-      for (std::size_t i = begin; i < begin + count; ++i)
-        shares[first + i] = vec3(packet.isBlocked(i) ? 0.f : 1.f);
-      if (translucent_.empty() || !packet.restart()) continue;
-      rtcOccluded16(packet.valid.data(), translucentScene_, &context, &packet.rays);
-      for (std::size_t i = begin; i < begin + count; ++i)
-        if (packet.valid[i] == -1 && packet.isBlocked(i)) behind.push_back(first + i);
+    const std::size_t all = (rays.size() + kPacket - 1) / kPacket;
+    for (std::size_t done = 0; done < all; done += kBatch) {
+      const auto packets = std::span(batch).first(std::min(kBatch, all - done));
+      setPackets(packets, rays, done * kPacket);
+      for (Packet& packet : packets) packet.trace(solidScene_, context);
+      for (const Packet& packet : packets) packet.answer(shares);
+      if (translucent_.empty()) continue;
+      for (Packet& packet : packets) {
+        if (!packet.restart()) continue;
+        packet.trace(translucentScene_, context);
+        for (std::size_t i = packet.begin; i < packet.end; ++i)
+          if (packet.valid[i] == -1 && packet.isBlocked(i)) behind.push_back(packet.first + i);
+      }
     }
     traceTranslucent(rays, behind, shares);
   }
@@ -193,11 +231,9 @@ class EmbreeTracer final : public ShadowTracer {
     Packet packet;
     for (std::size_t done = 0; done < which.size(); done += kPacket) {
       const auto part = which.subspan(done, std::min(kPacket, which.size() - done));
-      for (std::size_t i = 0; i < kPacket; ++i)
-        packet.set(i, rays, part[std::min(i, part.size() - 1)]);
-      packet.start(0, part.size());
+      packet.set(rays, part);
       context.through.fill(vec3(1.f));
-      rtcOccluded16(packet.valid.data(), translucentScene_, &context.embree, &packet.rays);
+      packet.trace(translucentScene_, context.embree);
       for (std::size_t i = 0; i < part.size(); ++i)
         shares[part[i]] = packet.isBlocked(i) ? vec3(0.f) : context.through[i];
     }

@@ -186,7 +186,7 @@ Error tooMany(const World& world, const std::vector<Chart>& charts,
       kBorders * static_cast<double>(density) *
       std::sqrt(static_cast<double>(most) / std::max(texels, static_cast<double>(most)));
   return error(
-      ErrorKind::Failed,
+      ErrorKind::Usage,
       "surfaces that shine would be cut into more than {} cells, of 300 bytes each, at {:g} "
       "texels a metre; bake at about {:.2g} (--density), or without their light: \"bake\": "
       "{{\"areaLights\": false}} in the scene",

@@ -114,19 +114,22 @@ void extrapolate(const Plan& plan, const std::vector<Measured>& found, Estimate&
   result.lightSeconds = sum.seconds * factor / threads;
   if (count > 1.)
     result.deviation = std::sqrt(squares * left * count / (count - 1.)) * factor / threads;
-  result.logBytes = static_cast<std::uint64_t>(static_cast<double>(sum.bytes) * factor);
-  // Sorted lists that grow to twice their size.
-  result.finishBytes += static_cast<std::uint64_t>(2. * sizeof(LitTexel) * factor *
-                                                   static_cast<double>(sum.litTexels));
+  const auto all = [&](std::uint64_t some) {
+    return static_cast<std::uint64_t>(static_cast<double>(some) * factor);
+  };
+  result.logBytes = all(sum.bytes);
+  result.litBytes = all(kLitBytes * sum.litTexels);
 }
 
-// Half floats of all maps, two bits for each texel, and on each thread what encodes one map: its
-// floats, and a file that grows.
-std::uint64_t mapBytes(const Plan& plan) {
+// The most that finishing takes: of the maps half floats, bits, what their seams need, and on each
+// thread a file that grows; or, when the maps are written, some groups and the patch of one.
+std::uint64_t finishBytes(const Plan& plan, std::uint64_t litBytes) {
   const auto side = static_cast<std::uint64_t>(plan.settings.pack.side);
   const auto maps = static_cast<std::uint64_t>(plan.packed.packing.maps);
-  const auto encoders = std::min<std::uint64_t>(maps, static_cast<std::uint64_t>(threadCount()));
-  return side * side * (6 * maps + 20 * encoders) + side * side / 4 * maps;
+  const auto writers = std::min<std::uint64_t>(maps, static_cast<std::uint64_t>(threadCount()));
+  const std::uint64_t map = side * side, bits = map * maps / 2, seams = map * maps;
+  return bits + seams +
+         std::max(6 * map * maps + 6 * map * writers, 3 * std::min(litBytes, mostGroupBytes(plan)));
 }
 
 }  // namespace
@@ -143,7 +146,7 @@ Result<Estimate> estimate(const Plan& plan, double seconds) {
   if (Progress::cancelled() || found.empty()) return error(ErrorKind::Cancelled, "cancelled");
   result.lightBytes = residentBytes();
   extrapolate(plan, found, result);
-  result.finishBytes = planned == 0 ? 0 : result.finishBytes + planned + mapBytes(plan);
+  result.finishBytes = planned == 0 ? 0 : planned + finishBytes(plan, result.litBytes);
   return result;
 }
 

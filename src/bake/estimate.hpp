@@ -9,7 +9,7 @@
 namespace lucerna::bake {
 
 struct Estimate {
-  std::uint64_t units = 0, texels = 0;  // that were lit for it, some units in part
+  std::uint64_t units = 0, texels = 0;  // lit for it, some units in part; as Plan::texels()
   std::uint64_t emitterCells = 0;       // of surfaces that shine
   double prepareSeconds = 0.;           // taken, before the first ray
   double lightSeconds = 0.;             // of this machine's threads as they are set
@@ -18,6 +18,7 @@ struct Estimate {
   // counted for maps and groups. 0: this machine does not say.
   std::uint64_t lightBytes = 0, finishBytes = 0;
   std::uint64_t logBytes = 0;  // in DIR/work
+  std::uint64_t litBytes = 0;  // of groups that switch, if all were in memory at once
 };
 
 // Lights units in a random order, the same each time, for about so many seconds, and a block at

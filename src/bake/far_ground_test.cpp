@@ -37,7 +37,8 @@ std::vector<LitTexel> floorOf(const scene::Scene& scene, Engine engine, vec3 sky
   settings.density = 10.f;
   settings.engine = engine;
   settings.sky = sky;
-  settings.skyDirections = 64;
+  settings.sampling.skyDirections = 64;
+  settings.sampling.finePositions = 0;  // what the middle sees
   const Result<Plan> plan = makePlan(scene, settings);
   EXPECT_TRUE(plan) << plan.error().message;
   return texelsOf(lightAll(*plan), 0);

@@ -49,6 +49,16 @@ vec3 positionAt(const Samples& s, std::size_t i) {
   return {s.x[i], s.y[i], s.z[i]};
 }
 
+// Calls what(first, end) for the samples of each of the tile's texels.
+template <typename What>
+void forTexels(const Samples& samples, const Tile& tile, const What& what) {
+  for (std::uint32_t i = tile.first; i < tile.first + tile.count;) {
+    const std::uint32_t first = i;
+    while (i < tile.first + tile.count && samples.texels[i] == samples.texels[first]) ++i;
+    what(first, i);
+  }
+}
+
 // A thin box around the tile's samples: what crosses it may cover some of them.
 Aabb boxAround(const Tile& tile, float texel) {
   // Half a texel to each side, as a texel reaches beyond its sample.
@@ -118,29 +128,34 @@ void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> w
   }
 }
 
+// Of a texel's samples that are not hidden; scene::kNone if all are.
+std::uint32_t HiddenSamples::nextToMiddle(const Samples& samples, std::uint32_t first,
+                                          std::uint32_t end) const {
+  vec3 middle(0.f);
+  for (std::uint32_t i = first; i < end; ++i) middle += positionAt(samples, i);
+  middle /= static_cast<float>(end - first);
+  std::uint32_t nearest = scene::kNone;
+  const auto distance = [&](std::uint32_t k) {
+    return glm::distance(positionAt(samples, k), middle);
+  };
+  for (std::uint32_t k = first; k < end; ++k)
+    if (!hidden_[k] && (nearest == scene::kNone || distance(k) < distance(nearest))) nearest = k;
+  return nearest;
+}
+
 // Of each texel of the tile: what is left and does not see the one of them next to the middle.
 void HiddenSamples::separate(const Samples& samples, const Tile& tile) {
   which_.clear();
   asked_.clear();
-  for (std::uint32_t i = tile.first; i < tile.first + tile.count;) {
-    const std::uint32_t first = i;
-    vec3 middle(0.f);
-    for (; i < tile.first + tile.count && samples.texels[i] == samples.texels[first]; ++i)
-      middle += positionAt(samples, i);
-    middle /= static_cast<float>(i - first);
-    std::uint32_t nearest = scene::kNone;
-    const auto distance = [&](std::uint32_t k) {
-      return glm::distance(positionAt(samples, k), middle);
-    };
-    for (std::uint32_t k = first; k < i; ++k)
-      if (!hidden_[k] && (nearest == scene::kNone || distance(k) < distance(nearest))) nearest = k;
-    for (std::uint32_t k = first; k < i; ++k) {
+  forTexels(samples, tile, [&](std::uint32_t first, std::uint32_t end) {
+    const std::uint32_t nearest = nextToMiddle(samples, first, end);
+    for (std::uint32_t k = first; k < end; ++k) {
       if (hidden_[k] || k == nearest) continue;
       const vec3 from = positionAt(samples, nearest);
       which_.push_back(k);
       asked_.push_back({.originW = from, .directionW = positionAt(samples, k) - from, .far = 1.f});
     }
-  }
+  });
   if (which_.empty()) return;
   shares_.resize(asked_.size());
   rays_.transmittance(asked_, shares_);
@@ -213,6 +228,30 @@ void HiddenSamples::remove(Samples& samples, std::uint32_t index) {
   for (const Tile& tile : alike_)
     if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
   for (const Tile& tile : crossed_) separate(samples, tile);
+  if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
+}
+
+void HiddenSamples::removeBesideOpen(Samples& samples, std::uint32_t index) {
+  const Chart& chart = plan_.charts.charts[index];
+  hidden_.assign(samples.size(), false);
+  crossed_.clear();
+  which_.clear();
+  for (const Tile& tile : samples.tiles) {
+    if (!isCrossed(samples, chart, tile)) continue;
+    crossed_.push_back(tile);
+    forTexels(samples, tile, [&](std::uint32_t first, std::uint32_t end) {
+      which_.push_back(nextToMiddle(samples, first, end));
+    });
+  }
+  ask(samples, which_);
+  for (const Tile& tile : crossed_) {
+    forTexels(samples, tile, [&](std::uint32_t first, std::uint32_t end) {
+      const auto begin = hidden_.begin();
+      if (std::find(begin + first, begin + end, true) != begin + end)
+        std::fill(begin + first, begin + end, true);
+    });
+    separate(samples, tile);
+  }
   if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
 }
 

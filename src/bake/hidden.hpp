@@ -25,6 +25,10 @@ class HiddenSamples {
   // of opaque one-sided surfaces. Of a texel that something cuts in two those are left that see the
   // one next to its middle.
   void remove(Samples& samples, std::uint32_t chart);
+  // The same of texels of which another place is known not to be hidden, with fewer rays:
+  // those that are not cut in two are not hidden. Of the others, the place next to the middle
+  // speaks for all of them that it sees.
+  void removeBesideOpen(Samples& samples, std::uint32_t chart);
 
  private:
   // A sample that is not known to be hidden or not.
@@ -34,6 +38,7 @@ class HiddenSamples {
     std::size_t inside = 0, outside = 0;  // rays that say so
   };
   void ask(const Samples& samples, std::span<const std::uint32_t> which);
+  std::uint32_t nextToMiddle(const Samples& samples, std::uint32_t first, std::uint32_t end) const;
   void separate(const Samples& samples, const Samples::Tile& tile);
   void findSurface(const Samples& samples, const Chart& chart, const Samples::Tile& tile);
   bool isCrossed(const Samples& samples, const Chart& chart, const Samples::Tile& tile);

@@ -12,7 +12,7 @@ namespace lucerna::bake {
 // What was asked for; the scene's hints count for the rest.
 struct Asked {
   std::optional<int> side;                         // texels along a side of a map
-  std::optional<float> patchTolerance;             // brightness of a white surface
+  std::optional<float> patchTolerance;             // as BakeSettings::patchTolerance
   std::optional<std::vector<std::string>> groups;  // as BakeSettings::groups
 };
 

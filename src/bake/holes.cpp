@@ -1,5 +1,6 @@
 #include "bake/holes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace lucerna::bake {
@@ -25,12 +26,28 @@ int repeated(int i, int size) {
   return within < 0 ? within + size : within;
 }
 
+int nextOf(int i, int size) {
+  return i + 1 < size ? i + 1 : 0;
+}
+
+// glm::floor(), which has branches without SSE 4.1.
+ivec2 below(vec2 p) {
+  const ivec2 towardsZero(p);
+  return towardsZero - ivec2(glm::lessThan(p, vec2(towardsZero)));
+}
+
 }  // namespace
 
 Holes::Holes(const trace::MaterialLookup& lookup, const scene::Scene& scene,
              std::vector<trace::Spot> triangles)
     : lookup_(lookup), triangles_(std::move(triangles)) {
-  for (const trace::Spot& triangle : triangles_) pictures_.push_back(pictureOf(scene, triangle));
+  for (const trace::Spot& triangle : triangles_) {
+    Picture& picture = pictures_.emplace_back(pictureOf(scene, triangle));
+    if (!picture.alphas) continue;
+    std::vector<Cell>& cells = cells_[{picture.alphas, picture.least}];
+    if (cells.empty()) cells = cellsOf(picture);
+    picture.cells = cells.data();
+  }
 }
 
 Holes::Picture Holes::pictureOf(const scene::Scene& scene, const trace::Spot& triangle) const {
@@ -55,6 +72,32 @@ Holes::Picture Holes::pictureOf(const scene::Scene& scene, const trace::Spot& tr
   return picture;
 }
 
+std::vector<Holes::Cell> Holes::cellsOf(const Picture& picture) {
+  constexpr float kSure = 0.01f;  // more than isHole() rounds
+  std::vector<Cell> cells;
+  cells.reserve(static_cast<std::size_t>(picture.size.x) * picture.size.y);
+  for (int y = 0; y < picture.size.y; ++y)
+    for (int x = 0; x < picture.size.x; ++x) {
+      const int right = nextOf(x, picture.size.x), bottom = nextOf(y, picture.size.y);
+      const auto [least, most] =
+          std::minmax({picture.alpha(x, y), picture.alpha(right, y), picture.alpha(x, bottom),
+                       picture.alpha(right, bottom)});
+      cells.push_back(static_cast<float>(least) > picture.least + kSure  ? Cell::Solid
+                      : static_cast<float>(most) < picture.least - kSure ? Cell::Hole
+                                                                         : Cell::Mixed);
+    }
+  return cells;
+}
+
+// share: of the way to the next texels.
+bool Holes::isHole(const Picture& picture, ivec2 cell, vec2 share) {
+  const int right = nextOf(cell.x, picture.size.x), bottom = nextOf(cell.y, picture.size.y);
+  const auto alpha = [&](int x, int y) { return static_cast<float>(picture.alpha(x, y)); };
+  return glm::mix(glm::mix(alpha(cell.x, cell.y), alpha(right, cell.y), share.x),
+                  glm::mix(alpha(cell.x, bottom), alpha(right, bottom), share.x),
+                  share.y) < picture.least;
+}
+
 bool Holes::at(std::size_t triangle, vec2 barycentric) const {
   const Picture& p = pictures_[triangle];
   if (!p.alphas) {
@@ -64,17 +107,10 @@ bool Holes::at(std::size_t triangle, vec2 barycentric) const {
   }
   const vec2 place = p.places[0] * (1.f - barycentric.x - barycentric.y) +
                      p.places[1] * barycentric.x + p.places[2] * barycentric.y;
-  const vec2 corner = glm::floor(place), share = place - corner;
-  const int left = repeated(static_cast<int>(corner.x), p.size.x),
-            right = left + 1 < p.size.x ? left + 1 : 0,
-            top = repeated(static_cast<int>(corner.y), p.size.y),
-            bottom = top + 1 < p.size.y ? top + 1 : 0;
-  const auto alpha = [&](int x, int y) {
-    return static_cast<float>(
-        p.alphas[(static_cast<std::ptrdiff_t>(y) * p.size.x + x) * p.channels]);
-  };
-  return glm::mix(glm::mix(alpha(left, top), alpha(right, top), share.x),
-                  glm::mix(alpha(left, bottom), alpha(right, bottom), share.x), share.y) < p.least;
+  const ivec2 corner = below(place);
+  const ivec2 at(repeated(corner.x, p.size.x), repeated(corner.y, p.size.y));
+  const Cell cell = p.cells[static_cast<std::ptrdiff_t>(at.y) * p.size.x + at.x];
+  return cell == Cell::Mixed ? isHole(p, at, place - vec2(corner)) : cell == Cell::Hole;
 }
 
 }  // namespace lucerna::bake

@@ -49,18 +49,29 @@ std::vector<scene::PlacedLight> skyLights(vec3 radiance, int directions) {
   if (radiance == vec3(0.f)) return lights;
   // Points of a spiral (Swinbank and Purser, "Fibonacci grids", 2006); each stands for as much of
   // the sphere.
+  // A cone of that share: 2 pi (1 - cos half) = 4 pi / n. Its irradiance on what it faces is the
+  // radiance times pi sin^2 half = (4 pi / n) (1 - 1 / n).
+  const double share = 1. / directions;
+  const auto angle = static_cast<float>(2. * std::acos(1. - 2. * share));
+  const vec3 intensity =
+      radiance * static_cast<float>(4. * glm::pi<double>() * share * (1. - share));
   const double golden = (1. + std::sqrt(5.)) / 2.;
   for (int i = 0; i < directions; ++i) {
-    const double y = 1. - (2. * i + 1.) / directions;
-    const double across = std::sqrt(1. - y * y), angle = 2. * glm::pi<double>() * i / golden;
+    const double y = 1. - (2. * i + 1.) * share;
+    const double across = std::sqrt(1. - y * y), turn = 2. * glm::pi<double>() * i / golden;
     scene::PlacedLight light;
     light.kind = scene::LightKind::Directional;
-    light.directionW = -vec3(across * std::cos(angle), y, across * std::sin(angle));
-    light.intensity = radiance * (4.f * kPi / static_cast<float>(directions));
+    light.directionW = -vec3(across * std::cos(turn), y, across * std::sin(turn));
+    light.intensity = intensity;
+    light.angle = angle;
     light.reach = std::numeric_limits<float>::infinity();
     lights.push_back(light);
   }
   return lights;
+}
+
+bool isOfSky(const scene::PlacedLight& light) {
+  return light.kind == scene::LightKind::Directional && light.light == scene::kNone;
 }
 
 }  // namespace lucerna::bake

@@ -10,7 +10,7 @@
 
 namespace lucerna::bake {
 
-// What `--lights` calls the lights without a group.
+// What `--lights`, and messages, call the lights without a group.
 inline constexpr const char* kAlwaysOn = "always-on";
 
 struct LightGroup {
@@ -27,8 +27,10 @@ std::vector<LightGroup> groupLights(const scene::Scene& scene, float mostReach);
 // may reach it, and few others.
 scene::Bvh reachTree(std::span<const scene::PlacedLight> lights);
 
-// A sky of one radiance, as directional lights that are spread evenly over all directions. They are
-// none of the scene's: their PlacedLight::light is kNone.
+// A sky of one radiance, as directional lights that are spread evenly over all directions; each is
+// as large as its share of the sphere, so that shadows' edges run into each other. They are none of
+// the scene's: their PlacedLight::light is kNone. directions: 2 or more.
 std::vector<scene::PlacedLight> skyLights(vec3 radiance, int directions);
+bool isOfSky(const scene::PlacedLight& light);
 
 }  // namespace lucerna::bake

@@ -119,6 +119,32 @@ TEST(LightTruth, AFurnaceIsEvenlyLit) {
     }
 }
 
+// The shadow of a board along a border between blocks, a little askew, so that it cuts all parts of
+// texels on either side: standard sees how much of each, whichever block has the neighbours.
+TEST(LightTruth, AHardEdgeAlongABlocksBorder) {
+  scene::Scene scene;
+  addSurface(scene);
+  const auto floor = addRectangle(scene, {0, 0, 0}, {3.2f, 0, 0}, {0, 0, -3.2f});
+  const vec3 along = glm::normalize(vec3(0.03f, 0, -1)), across(-along.z, 0, along.x);
+  addRectangle(scene, vec3(0, 1, 0) + 5.f * across, 5.f * across, 9.f * along);
+  addLight(scene, LightKind::Directional, {}, {0, -1, 0}).intensity = 1.f;
+  const auto texels = texelsOf(lit(scene, 10.f, kStandard), floor);
+  ASSERT_EQ(texels.size(), 64u * 64u);
+  std::size_t cut = 0;
+  for (const LitTexel& t : texels) {
+    constexpr int kSide = 32;
+    double open = 0.;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const vec2 off = (vec2(i % kSide, i / kSide) + 0.5f) / float{kSide} - 0.5f;
+      const vec3 place = t.positionW + 0.1f * vec3(off.x, 0, off.y);
+      open += glm::dot(place, across) < 0.f ? 1. / (kSide * kSide) : 0.;
+    }
+    if (open > 0. && open < 1.) ++cut;
+    EXPECT_NEAR(t.irradiance.x, open, 0.12) << t.positionW.x << ' ' << t.positionW.z;
+  }
+  EXPECT_GT(cut, 60u);
+}
+
 // A lamp over the edge of a half-plane: of its disc is seen what lies beyond a chord.
 double shareBeyond(double chord) {
   const double c = std::clamp(chord, -1., 1.);
@@ -187,7 +213,9 @@ struct Floor {
     floor = addRectangle(scene, {0, 0, 0}, {4, 0, 0}, {0, 0, -4});
   }
   Errors errors(const Truth& truth) const {
-    return errorsOf(texelsOf(lit(scene, 4.f, kStandard), floor), truth);
+    Sampling sampling = kStandard;
+    sampling.finePositions = 0;  // the truth is that of the middle
+    return errorsOf(texelsOf(lit(scene, 4.f, sampling), floor), truth);
   }
 };
 

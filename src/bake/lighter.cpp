@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "bake/brightness.hpp"
+#include "bake/light_points.hpp"
+#include "bake/light_set.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -22,6 +24,12 @@ void forTexels(const Samples& samples, const What& what) {
 
 }  // namespace
 
+int Lighter::pointsOf(const PlacedLight& light) const {
+  if (!hasSize(light)) return 1;
+  const int points = isOfSky(light) ? settings_.skyPoints : settings_.lightSamples;
+  return again_ ? std::max(points / settings_.shared, 1) : points;
+}
+
 void Lighter::addMeans(const Samples& samples, std::vector<vec3>& texels) const {
   forTexels(samples, [&](std::size_t first, std::size_t end) {
     vec3 sum(0.f);
@@ -33,10 +41,10 @@ void Lighter::addMeans(const Samples& samples, std::vector<vec3>& texels) const 
 void Lighter::findUneven(const Samples& samples, std::span<const PlacedLight> lights,
                          std::uint32_t light, Uneven& uneven, std::vector<vec3>& texels) {
   addMeans(samples, texels);
-  if (uneven.around)
-    findEdges(samples, lights, light, uneven);
-  else
+  if (!uneven.around)
     findUnevenPlaces(samples, light, uneven.texels);
+  else if (light != UnevenTexel::kEmitters && !isOfSky(lights[light]))
+    findEdges(samples, lights, light, uneven);
   sums_.assign(samples.size(), vec3(0.f));
 }
 
@@ -107,7 +115,7 @@ void Lighter::dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& u
 
 void Lighter::relight(const Samples& samples, std::span<const PlacedLight> lights,
                       std::span<const UnevenTexel> uneven, std::vector<vec3>& texels) {
-  lightSamples_ = settings_.fineLightSamples;
+  again_ = true;
   for (std::size_t i = 0; i < uneven.size();) {
     const std::uint32_t light = uneven[i].light;
     const std::size_t first = i;
@@ -123,7 +131,7 @@ void Lighter::relight(const Samples& samples, std::span<const PlacedLight> light
       if (!relit_[u.texel]) texels[u.texel] -= u.irradiance;
     addMeans(part_, texels);
   }
-  lightSamples_ = settings_.lightSamples;
+  again_ = false;
 }
 
 }  // namespace lucerna::bake

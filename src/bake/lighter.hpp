@@ -28,7 +28,10 @@ struct LighterSettings {
   // Points on each light that has a size, where the first few do not agree on what they see; 1: its
   // middle alone. Each place of a texel's pattern has points of its own.
   int lightSamples = 16;
-  int fineLightSamples = 16;  // the same from the places of texels that are lit again
+  int skyPoints = 16;  // the same on each of the sky's lights (skyLights())
+  // From each place of a texel that is lit again, one of so many of these points: all places'
+  // points are one even set.
+  int shared = 1;
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   // Of a texel's light that one ray to an emitting surface stands for, of texels of one place.
@@ -49,8 +52,9 @@ struct UnevenTexel {
                           // sample, an estimate
 };
 struct Uneven {
-  const Samples* around =
-      nullptr;  // of the texels beside the block, of which others have one place
+  // Of the texels beside the block, where a texel has one place: what each is compared with are its
+  // neighbours. Of texels of several places, null.
+  const Samples* around = nullptr;
   std::vector<UnevenTexel> texels;  // light by light
 };
 
@@ -72,13 +76,15 @@ class Lighter {
   LightCounters counters;
 
  protected:
-  explicit Lighter(const LighterSettings& settings)
-      : settings_(settings), lightSamples_(settings.lightSamples) {}
+  explicit Lighter(const LighterSettings& settings) : settings_(settings) {}
 
   // Adds to sums_ what one light of the list, or UnevenTexel::kEmitters, gives other samples than
   // light() got.
   virtual void lightAgain(const Samples& samples, std::span<const scene::PlacedLight> lights,
                           std::uint32_t light) = 0;
+  // How many points stand for the light, from each place.
+  int pointsOf(const scene::PlacedLight& light) const;
+  bool sharesPoints() const { return again_ && settings_.shared > 1; }
   void addMeans(const Samples& samples, std::vector<vec3>& texels) const;
   // Of one light, which sums_ has: adds the texels' means, and starts sums_ again.
   void findUneven(const Samples& samples, std::span<const scene::PlacedLight> lights,
@@ -87,7 +93,6 @@ class Lighter {
   void dropEven(std::span<const vec3> texels, std::vector<UnevenTexel>& uneven) const;
 
   LighterSettings settings_;
-  int lightSamples_;        // of what is lit now
   std::vector<vec3> sums_;  // of all lights, or of the one under way, one a sample
 
  private:
@@ -96,6 +101,7 @@ class Lighter {
   void findEdges(const Samples& samples, std::span<const scene::PlacedLight> lights,
                  std::uint32_t light, Uneven& uneven);
 
+  bool again_ = false;       // texels are lit again
   std::vector<vec3> own_;    // sums_ of the block, while others are lit
   std::vector<float> grid_;  // brightness of the texels of the block and around it; < 0: no sample
   Samples part_;             // of those that are lit again

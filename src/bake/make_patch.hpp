@@ -8,19 +8,14 @@
 
 #include "core/file.hpp"
 #include "lightmap/layout.hpp"
-#include "lightmap/patch.hpp"
+#include "lightmap/texel_tiles.hpp"
 
 namespace lucerna::bake {
-
-struct PatchTexel {
-  std::uint16_t map = 0, x = 0, y = 0;
-  vec3 value{0.f};  // irradiance; finite, not negative
-};
 
 struct PatchLight {
   std::string group{};
   vec3 color{1.f};  // linear, times intensity: what is factored out, of whatever scale
-  std::span<const PatchTexel> texels{};  // by map, row, column; the gap's filled texels, too
+  const lightmap::HalfTiles& irradiance;  // RGB; of the gap's filled texels, too
 };
 
 // At the group's own colour: a brighter one makes what is off brighter, too.
@@ -32,7 +27,7 @@ struct PatchTolerance {
 struct MadePatch {
   lightmap::Patch patch{};
   Bytes bytes{};                 // its file
-  std::uint64_t otherBytes = 0;  // of the form that was not kept
+  std::uint64_t otherBytes = 0;  // of the other form: of tiles alone, or with triangles everywhere
   float worst = 0.f;  // irradiance by which a texel is off: more than the tolerance only where
                       // light is so strong that 1/131070 of it is more
 };
@@ -44,14 +39,14 @@ class PatchMaker {
   // beside them. It outlives the maker.
   PatchMaker(const lightmap::Layout& layout, std::span<const std::vector<bool>> used);
 
-  // Makes both forms and keeps the smaller. A value a texel is kept instead of three if all light
-  // has the group's colour, to an eighth of the tolerance.
+  // Makes both forms and keeps the smaller, map by map. A value a texel is kept instead of three if
+  // all light has the group's colour, to an eighth of the tolerance.
   MadePatch make(const PatchLight& light, const PatchTolerance& tolerance = {}) const;
 
  private:
   int side_, maps_;
   std::span<const std::vector<bool>> used_;
-  std::vector<lightmap::PatchRoot> roots_;  // of all triangles of the layout
+  std::vector<lightmap::PatchRoot> roots_;  // of all triangles of the layout, map by map
 };
 
 }  // namespace lucerna::bake

@@ -16,6 +16,24 @@ namespace {
 constexpr int kSide = 128;
 constexpr float kTolerance = 1.f / 255.f;
 
+struct PatchTexel {
+  std::uint16_t map = 0, x = 0, y = 0;
+  vec3 value{0.f};  // irradiance
+};
+
+lightmap::HalfTiles tilesOf(const std::vector<PatchTexel>& texels) {
+  lightmap::HalfTiles tiles(3);
+  for (const PatchTexel& texel : texels)
+    for (int c = 0; c < 3; ++c)
+      tiles.add(texel.map, texel.x, texel.y)[c * lightmap::kTileTexels] =
+          halfFromFloat(texel.value[c]);
+  return tiles;
+}
+vec3 asHalves(vec3 v) {
+  for (int c = 0; c < 3; ++c) v[c] = floatFromHalf(halfFromFloat(v[c]));
+  return v;
+}
+
 // Charts: a rectangle of two triangles, a lone triangle, a strip askew; in two maps. Around each
 // the gap is used too.
 class Charts {
@@ -48,7 +66,7 @@ class Charts {
       for (std::uint16_t y = 0; y < kSide; ++y)
         for (std::uint16_t x = 0; x < kSide; ++x) {
           if (!used_[map][static_cast<std::size_t>(y) * kSide + x]) continue;
-          const vec3 value = light(map, nearest(map, vec2(x, y) + 0.5f));
+          const vec3 value = asHalves(light(map, nearest(map, vec2(x, y) + 0.5f)));
           if (value != vec3(0.f)) texels.push_back({map, x, y, value});
         }
     return texels;
@@ -106,7 +124,7 @@ vec3 hardEdged(int map, vec2 p) {
 
 MadePatch made(const std::vector<PatchTexel>& texels, vec3 color, PatchTolerance tolerance = {}) {
   return PatchMaker(charts().layout(), charts().used())
-      .make({.group = "lamps", .color = color, .texels = texels}, tolerance);
+      .make({.group = "lamps", .color = color, .irradiance = tilesOf(texels)}, tolerance);
 }
 
 // By switching it on over nothing: the largest difference of any used texel.

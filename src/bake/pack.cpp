@@ -9,6 +9,8 @@
 #include <numeric>
 #include <optional>
 
+#include "core/text.hpp"
+
 namespace lucerna::bake {
 namespace {
 
@@ -136,9 +138,11 @@ std::vector<std::uint32_t> packingOrder(std::span<const ivec2> sizes) {
   return order;
 }
 
-double texelsOf(std::span<const ivec2> sizes) {
+// With their gaps.
+double texelsOf(std::span<const ivec2> sizes, int gap) {
   double texels = 0;
-  for (const ivec2 size : sizes) texels += static_cast<double>(size.x) * size.y;
+  for (const ivec2 size : sizes)
+    texels += (static_cast<double>(size.x) + gap) * (static_cast<double>(size.y) + gap);
   return texels;
 }
 
@@ -167,13 +171,13 @@ Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings) {
 }
 
 Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings) {
-  constexpr double kFilled = 0.85;  // of the maps, about
-  const double factor =
-      std::sqrt(kFilled * settings.mostMaps * settings.side * settings.side / texels);
-  return error(ErrorKind::Input,
-               "{} charts need more than {} maps of {} x {} texels; a texel density of about "
-               "{:.3g} of this one makes them fit, or more or larger maps do",
-               charts, settings.mostMaps, settings.side, settings.side, factor);
+  constexpr double kFilled = 0.95;  // of the maps, about, gaps counted
+  const double side = settings.side + settings.gap;
+  const double needed = std::clamp(std::ceil(texels / (kFilled * side * side)),
+                                   settings.mostMaps + 1., static_cast<double>(charts));
+  return error(ErrorKind::Usage,
+               "{} need about {:.0f} maps of {} x {} texels, and --most-maps allows {}",
+               counted(charts, "chart"), needed, settings.side, settings.side, settings.mostMaps);
 }
 
 Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings) {
@@ -190,7 +194,7 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
       --map;
     } else {
       if (static_cast<int>(maps.size()) == settings.mostMaps)
-        return tooManyMaps(sizes.size(), texelsOf(sizes), settings);
+        return tooManyMaps(sizes.size(), texelsOf(sizes, settings.gap), settings);
       maps.emplace_back(settings.side + settings.gap);
       spot = maps[map].find(size);
     }

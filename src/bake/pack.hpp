@@ -34,9 +34,9 @@ struct Packing {
   int maps = 0;
 };
 
-// sizes: width and height in texels, at least 1. The same input gives the same output. Errors
-// (ErrorKind::Input): a rectangle that is larger than a map, or more maps than are allowed; the
-// message says by which factor of texel density all would fit.
+// sizes: width and height in texels, at least 1. The same input gives the same output. Errors: a
+// rectangle that is larger than a map (ErrorKind::Input), or more maps than are allowed
+// (ErrorKind::Usage); the message says about how many are needed.
 Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings);
 
 // Share of the texels of all maps but the last that rectangles cover, without their gaps; of the
@@ -44,7 +44,7 @@ Result<Packing> pack(std::span<const ivec2> sizes, const PackSettings& settings)
 double occupancy(const Packing& packing, std::span<const ivec2> sizes, int side);
 
 // The errors of pack(), for who packs other shapes: each has to fit into a map by itself, and all
-// into the maps that are allowed. texels: what the shapes cover.
+// into the maps that are allowed. texels: what the shapes take, with their gaps.
 Status eachFits(std::span<const ivec2> sizes, const PackSettings& settings);
 Error tooManyMaps(std::size_t charts, double texels, const PackSettings& settings);
 

@@ -102,9 +102,12 @@ class Maps {
   std::vector<FreeSquares> maps_;
 };
 
-double texelsOf(std::span<const TexelMask> masks) {
+// With their gaps.
+double texelsOf(std::span<const TexelMask> masks, int gap) {
   double texels = 0;
-  for (const TexelMask& mask : masks) texels += static_cast<double>(mask.count());
+  for (const TexelMask& mask : masks)
+    texels += static_cast<double>(mask.count()) +
+              static_cast<double>(gap) * (mask.size().x + mask.size().y + gap);
   return texels;
 }
 
@@ -128,7 +131,7 @@ Result<Packing> packMasks(std::span<const TexelMask> masks, const PackSettings& 
     auto place = maps.place(shape);
     if (!place) {
       if (maps.count() == settings.mostMaps)
-        return tooManyMaps(masks.size(), texelsOf(masks), settings);
+        return tooManyMaps(masks.size(), texelsOf(masks, settings.gap), settings);
       maps.add();
       place = maps.place(shape);
     }

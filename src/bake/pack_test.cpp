@@ -100,7 +100,7 @@ TEST(Pack, GivesTheSameForTheSame) {
   }
 }
 
-TEST(Pack, SaysWhichDensityWouldFit) {
+TEST(Pack, SaysWhatDoesNotFit) {
   const std::vector<ivec2> large{{10, 10}, {100, 400}};
   const auto tooLarge = pack(large, {.side = 200});
   ASSERT_FALSE(tooLarge);
@@ -110,8 +110,12 @@ TEST(Pack, SaysWhichDensityWouldFit) {
   const std::vector<ivec2> many(16, ivec2(100));
   const auto tooMany = pack(many, {.side = 100, .mostMaps = 4});
   ASSERT_FALSE(tooMany);
-  EXPECT_THAT(tooMany.error().message, HasSubstr("16 charts need more than 4 maps of 100 x 100"));
-  EXPECT_THAT(tooMany.error().message, HasSubstr("0.461 of this one"));
+  EXPECT_EQ(tooMany.error().kind, ErrorKind::Usage);
+  EXPECT_EQ(tooMany.error().message,
+            "16 charts need about 16 maps of 100 x 100 texels, and --most-maps allows 4");
+  const auto small = pack(std::vector<ivec2>(400, ivec2(18)), {.side = 98, .mostMaps = 4});
+  ASSERT_FALSE(small);  // 25 in each, so 16 are enough
+  EXPECT_THAT(small.error().message, HasSubstr("400 charts need about 17 maps"));
 }
 
 }  // namespace

@@ -39,25 +39,49 @@ Result<PackedCharts> packed(const Charts& charts, const BakeSettings& settings) 
   return packCharts(shapes, settings.pack);
 }
 
-// A density below the settings' whose maps are not too many, found by trying; of two digits. 0 if
-// there is none near what the charts' areas let hope for, or the user pressed Ctrl-C.
+// m^2 of the surfaces that the charts hold.
+double areaOf(const Charts& charts) {
+  double area = 0.;
+  for (const Chart& chart : charts.charts) {
+    double twice = 0.;  // texels
+    for (const auto& [a, b, c] : chart.corners)
+      twice += std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    area += twice / (2. * chart.density * chart.density);
+  }
+  return area;
+}
+
+// No larger, and of two digits, so that what is printed is what was tried.
+float twoDigits(double density) {
+  const double unit = std::pow(10., std::floor(std::log10(density)) - 1.);
+  return static_cast<float>(std::floor(density / unit * (1. + 1e-6)) * unit);
+}
+
+// A density below the settings' whose maps are not too many, found by trying, from the one that
+// would fill all maps. 0 if there is none that --density takes, or the user pressed Ctrl-C.
 float densityThatFits(const World& world, const Charts& charts, BakeSettings settings) {
-  constexpr int kMostTries = 20;
-  constexpr float kStep = 0.92f;
-  double texels = 0.;
-  for (const Chart& chart : charts.charts)
-    texels += static_cast<double>(chart.size.x) * chart.size.y;
+  constexpr float kLeast = 1e-3f;
+  constexpr int kMostTries = 24, kFineTries = 12;
+  constexpr double kFine = 0.95, kCoarse = 0.5;
   const double room =
       static_cast<double>(settings.pack.mostMaps) * settings.pack.side * settings.pack.side;
-  float density = settings.density * static_cast<float>(std::min(1., std::sqrt(room / texels)));
+  double density = std::min<double>(settings.density, std::sqrt(room / areaOf(charts)));
   Progress progress("looking for a density that fits", kMostTries);
-  for (int i = 0; i < kMostTries && !Progress::cancelled(); ++i, density *= kStep) {
-    const float unit = std::pow(10.f, std::floor(std::log10(density)) - 1.f);
-    settings.density = std::floor(density / unit) * unit;
+  for (int i = 0; i < kMostTries && !Progress::cancelled(); ++i) {
+    settings.density = twoDigits(density);
+    if (settings.density < kLeast) break;
     if (packed(chartsOf(world, settings), settings)) return settings.density;
+    density = settings.density * (i < kFineTries ? kFine : kCoarse);
     progress.advance();
   }
   return 0.f;
+}
+
+// What packing said, and what to do.
+Error tooMany(const Error& fault, float fits) {
+  const std::string less = fits == 0.f ? "" : fmt::format("--density {:g}, which fits, or ", fits);
+  return error(fault.kind, "{}; wanted {}larger maps (--size) or more of them (--most-maps)",
+               fault.message, less);
 }
 
 // Lists in one order and without what is said twice, as their order changes nothing.
@@ -153,6 +177,12 @@ std::uint64_t Plan::texels() const {
   return sum;
 }
 
+std::uint64_t Plan::coveredTexels() const {
+  std::uint64_t sum = 0;
+  for (const TexelMask& mask : packed.masks) sum += static_cast<std::uint64_t>(mask.count());
+  return sum;
+}
+
 Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   Plan plan;
   plan.settings = inOrder(settings);
@@ -168,8 +198,7 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
     LUCERNA_TRY_VOID(checkGoesOn());
     const float fits = densityThatFits(plan.world, plan.charts, settings);
     LUCERNA_TRY_VOID(checkGoesOn());
-    if (fits == 0.f) return places.error();
-    return error(places.error().kind, "{}: --density {:g} fits", places.error().message, fits);
+    return tooMany(places.error(), fits);
   }
   plan.packed = std::move(*places);
   for (std::uint32_t i = 0; i < plan.charts.charts.size(); ++i)
@@ -180,7 +209,7 @@ Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings) {
   if (!plan.alwaysOn && settings.sky != vec3(0.f))
     plan.warnings.emplace_back("--sky is always on: it is baked if --lights names always-on");
   if (plan.alwaysOn)
-    std::ranges::copy(skyLights(settings.sky, settings.skyDirections),
+    std::ranges::copy(skyLights(settings.sky, settings.sampling.skyDirections),
                       std::back_inserter(plan.groups[0].lights));
   plan.hash = hashOf(plan);
   addWarnings(plan);

@@ -26,14 +26,36 @@ struct Sampling {
   int finePositions;  // the same of texels at the edges of shadows; 0: no others
   int lightSamples;   // points on a light with a size, see LighterSettings
   float emitterSize;  // of an emitting surface for one ray / its distance
+  int skyDirections;  // lights that stand for the sky, see skyLights()
+  int skyPoints;      // on each of them, see LighterSettings
+  bool operator==(const Sampling&) const = default;
 };
 // The presets of `lucerna bake`.
-inline constexpr Sampling kPreview{
-    .positions = 1, .finePositions = 0, .lightSamples = 1, .emitterSize = 0.5f};
-inline constexpr Sampling kStandard{
-    .positions = 1, .finePositions = 3, .lightSamples = 16, .emitterSize = 0.25f};
-inline constexpr Sampling kFinal{
-    .positions = 4, .finePositions = 8, .lightSamples = 32, .emitterSize = 0.05f};
+inline constexpr Sampling kPreview{.positions = 1,
+                                   .finePositions = 0,
+                                   .lightSamples = 1,
+                                   .emitterSize = 0.5f,
+                                   .skyDirections = 64,
+                                   .skyPoints = 16};
+inline constexpr Sampling kStandard{.positions = 1,
+                                    .finePositions = 3,
+                                    .lightSamples = 16,
+                                    .emitterSize = 0.25f,
+                                    .skyDirections = 128,
+                                    .skyPoints = 32};
+inline constexpr Sampling kFinal{.positions = 4,
+                                 .finePositions = 8,
+                                 .lightSamples = 32,
+                                 .emitterSize = 0.05f,
+                                 .skyDirections = 256,
+                                 .skyPoints = 4};
+
+struct Preset {
+  const char* name;
+  Sampling sampling;
+};
+inline constexpr Preset kPresets[]{
+    {"preview", kPreview}, {"standard", kStandard}, {"final", kFinal}};
 
 // Of maps, beside their masters.
 enum class Encoding { Rgb9e5, Bc6h, Png };
@@ -47,11 +69,10 @@ struct BakeSettings {
   // An emitting surface reaches to where it gives a white one no more than this brightness at the
   // scene's exposure; 0: as far as `reach`.
   float faintest = 1.f / 256;
-  vec3 sky{0.f};  // radiance of all directions that meet nothing
-  int skyDirections = 256;
+  vec3 sky{0.f};                    // radiance of all directions that meet nothing
   std::vector<std::string> groups;  // of lights that are baked; empty: all
-  // By how much a patch may differ from its light: brightness of a white surface; absent: 1/1024 of
-  // what shows as white at the scene's exposure.
+  // By how much a patch may differ from its light: brightness of a white surface before exposure;
+  // absent: 1/1024 of what shows as white at the scene's exposure.
   std::optional<float> patchTolerance;
   Engine engine = Engine::Embree;
   std::vector<Encoding> encodings;
@@ -75,14 +96,15 @@ struct Plan {
   std::uint64_t hash = 0;          // of everything that the light depends on
   std::vector<std::string> warnings;
 
-  std::uint64_t texels() const;  // of all charts' rectangles
+  std::uint64_t texels() const;         // of all charts' rectangles
+  std::uint64_t coveredTexels() const;  // of them those that a chart's triangles touch
   // Whether emitting surfaces light others.
   bool emittersShine() const { return alwaysOn && world.scene->bake.areaLights; }
 };
 
 // The scene outlives the plan. Errors: a scene without triangles (ErrorKind::Input), maps that
-// cannot hold it (the message says the density that would fit), an unknown group of lights
-// (ErrorKind::Usage).
+// cannot hold it (ErrorKind::Usage; the message says a density that fits), an unknown group of
+// lights (ErrorKind::Usage).
 Result<Plan> makePlan(const scene::Scene& scene, const BakeSettings& settings);
 
 // A texel of a chart in the maps, and a point in the chart's texels.

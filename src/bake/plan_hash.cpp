@@ -53,7 +53,8 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.reach);
   w(s.faintest);
   w(s.sky);
-  w(s.skyDirections);
+  w(s.sampling.skyDirections);
+  w(s.sampling.skyPoints);
   w(static_cast<int>(s.engine));
 }
 

@@ -17,74 +17,61 @@ using glm::dvec3;
 // Brightness that a group gives a texel where it gave none before: less is left out.
 constexpr double kLeastAdded = 1e-4;
 
-// Irradiance and brightness: what a white surface shows at the scene's exposure.
-class Light {
- public:
-  explicit Light(const scene::Scene& scene) : white_(irradianceOfWhite(scene)) {}
+using lightmap::HalfTiles;
+using lightmap::kTileTexels;
 
-  dvec3 brightness(const std::uint16_t* rgb) const {
-    return brightness({floatFromHalf(rgb[0]), floatFromHalf(rgb[1]), floatFromHalf(rgb[2])});
-  }
-  dvec3 brightness(vec3 irradiance) const { return dvec3(irradiance) / white_; }
-  std::array<std::uint16_t, 3> halves(dvec3 brightness) const {
-    const vec3 e(glm::min(brightness * white_, double{kLargestHalf}));
-    return {halfFromFloat(e.x), halfFromFloat(e.y), halfFromFloat(e.z)};
-  }
+vec3 irradianceAt(const std::uint16_t* red, std::size_t step) {
+  return {floatFromHalf(red[0]), floatFromHalf(red[step]), floatFromHalf(red[2 * step])};
+}
 
- private:
-  double white_;
+void write(std::array<std::uint16_t, 3> rgb, std::uint16_t* red, std::size_t step) {
+  for (std::size_t c = 0; c < 3; ++c) red[c * step] = rgb[c];
+}
+
+// An unknown that a group lights: its red, kTileTexels before its green.
+struct LitUnknown {
+  std::uint32_t unknown;
+  std::uint16_t* red;
 };
 
-std::uint16_t* pixel(BakedLight& baked, TexelPlace p) {
-  return baked.maps[p.map].pixel<std::uint16_t>(p.x, p.y);
-}
-
-TexelPlace placeOf(const LitTexel& texel) {
-  return {.map = texel.map, .x = texel.x, .y = texel.y};
-}
-
-// Calls visit(unknown, texel) where a group, which is sorted, lights an unknown.
-template <typename Lit, typename Visit>
-void forShared(const SeamSystem& system, Lit& lit, Visit visit) {
-  std::size_t at = 0;
-  for (const std::uint32_t unknown : system.order) {
-    const TexelPlace place = system.places[unknown];
-    while (at < lit.size() && placeOf(lit[at]) < place) ++at;
-    if (at < lit.size() && placeOf(lit[at]) == place) visit(unknown, lit[at]);
-  }
-}
-
-// What the unknowns show with everything on. encoding: of the maps; PNG: as they are.
-std::vector<dvec3> sumOf(const SeamSystem& system, const BakedLight& baked, const Light& light,
-                         Encoding encoding = Encoding::Png) {
-  std::vector<dvec3> sum;
-  for (const vec3& irradiance : encodedTexels(baked.maps, system.places, encoding))
-    sum.push_back(light.brightness(irradiance));
-  for (const std::vector<LitTexel>& lit : baked.groups)
-    forShared(system, lit, [&](std::uint32_t unknown, const LitTexel& texel) {
-      sum[unknown] += light.brightness(texel.rgb.data());
+// In the order of the unknowns.
+std::vector<LitUnknown> litUnknowns(const SeamSystem& system, HalfTiles& group) {
+  std::vector<LitUnknown> found;
+  for (std::size_t slot = 0; slot < group.tiles().size(); ++slot)
+    group.forTexelsOf(slot, [&](std::uint16_t map, int x, int y, std::uint16_t* red) {
+      const std::uint32_t unknown = system.unknownAt(
+          {.map = map, .x = static_cast<std::uint16_t>(x), .y = static_cast<std::uint16_t>(y)});
+      if (unknown != SeamSystem::kNone) found.push_back({unknown, red});
     });
-  return sum;
+  std::ranges::sort(found, {}, &LitUnknown::unknown);
+  return found;
+}
+
+void addTo(std::vector<vec3>& sum, const SeamSystem& system, HalfTiles& group,
+           const Brightness& brightness) {
+  for (const LitUnknown& lit : litUnknowns(system, group))
+    sum[lit.unknown] += vec3(brightness.of(irradianceAt(lit.red, kTileTexels)));
 }
 
 // The largest channel's, as shown.
-double stepAt(const SeamSample& sample, std::span<const dvec3> values) {
-  std::array<dvec3, 2> sides{dvec3(0.), dvec3(0.)};
+float stepAt(const SeamSample& sample, std::span<const vec3> values) {
+  std::array<vec3, 2> sides{vec3(0.f), vec3(0.f)};
   for (std::size_t k = 0; k < 8; ++k)
-    sides[k / 4] += double{std::abs(sample.weights[k])} * values[sample.texels[k]];
-  const dvec3 step = glm::abs(glm::clamp(sides[0], 0., 1.) - glm::clamp(sides[1], 0., 1.));
+    sides[k / 4] += std::abs(sample.weights[k]) * values[sample.texels[k]];
+  const vec3 step = glm::abs(glm::clamp(sides[0], 0.f, 1.f) - glm::clamp(sides[1], 0.f, 1.f));
   return std::max({step.x, step.y, step.z});
 }
 
-SeamSteps stepsOf(const SeamSystem& system, std::span<const dvec3> values) {
+SeamSteps stepsOf(const SeamSystem& system, std::span<const vec3> values) {
   struct Step {
-    double size, share;
+    float size, share;
   };
   std::vector<Step> steps;
+  steps.reserve(system.between().size());
   double all = 0.;
-  for (const SeamSample& sample : system.measuring) {
-    steps.push_back({stepAt(sample, values), sample.share});
-    all += sample.share;
+  for (const SeamPoint& point : system.between()) {
+    steps.push_back({stepAt(system.sampleAt(point), values), point.share});
+    all += point.share;
   }
   std::ranges::sort(steps, {}, &Step::size);
   SeamSteps found;
@@ -109,96 +96,144 @@ std::uint64_t solveChannel(const SeamSystem& system, const SeamPart& part, int c
 }
 
 // Returns the most iterations of a part.
-std::uint64_t solveMaps(const SeamSystem& system, BakedLight& baked, const Light& light,
-                        Progress& progress) {
+std::uint64_t solveMaps(const SeamSystem& system, std::vector<Image>& maps,
+                        const Brightness& brightness) {
+  const auto red = [&](TexelPlace p) { return maps[p.map].pixel<std::uint16_t>(p.x, p.y); };
+  const std::span<const SeamPart> parts = system.parts();
   std::vector<dvec3> values;
-  values.reserve(system.places.size());
-  for (const TexelPlace& place : system.places)
-    values.push_back(light.brightness(pixel(baked, place)));
-  std::vector<std::uint64_t> iterations(3 * system.parts.size());
+  values.reserve(system.places().size());
+  for (const TexelPlace& place : system.places())
+    values.push_back(brightness.of(irradianceAt(red(place), 1)));
+  std::vector<std::uint64_t> iterations(3 * parts.size());
+  Progress progress("closing seams", iterations.size());
   constexpr std::size_t kGrain = 3;
   parallelFor(iterations.size(), kGrain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
-      const SeamPart& part = system.parts[i % system.parts.size()];
-      iterations[i] = solveChannel(system, part, static_cast<int>(i / system.parts.size()),
+      const SeamPart& part = parts[i % parts.size()];
+      iterations[i] = solveChannel(system, part, static_cast<int>(i / parts.size()),
                                    std::span(values).subspan(part.firstTexel, part.texels));
       progress.advance();
     }
   });
   for (std::size_t i = 0; i < values.size(); ++i)
-    std::ranges::copy(light.halves(values[i]), pixel(baked, system.places[i]));
+    write(brightness.halves(values[i]), red(system.places()[i]), 1);
   return iterations.empty() ? 0 : std::ranges::max(iterations);
 }
 
-// Solves the parts that the group lights.
-void solveGroup(const SeamSystem& system, std::vector<LitTexel>& lit, const Light& light) {
-  struct Value {
-    std::uint32_t unknown = 0;
-    LitTexel* texel = nullptr;
-  };
-  std::vector<Value> given;
-  forShared(system, lit,
-            [&](std::uint32_t unknown, LitTexel& texel) { given.push_back({unknown, &texel}); });
-  std::ranges::sort(given, {}, &Value::unknown);
-  std::vector<LitTexel> added;
-  std::size_t at = 0;
-  std::vector<dvec3> values;
-  for (const SeamPart& part : system.parts) {
-    if (Progress::cancelled()) return;
-    const std::size_t first = at;
-    for (; at < given.size() && given[at].unknown < part.firstTexel + part.texels; ++at) continue;
-    if (at == first) continue;
-    const auto its = std::span(given).subspan(first, at - first);
-    values.assign(part.texels, dvec3(0.));
-    for (const Value& v : its)
-      values[v.unknown - part.firstTexel] = light.brightness(v.texel->rgb.data());
-    for (int c = 0; c < 3; ++c) solveChannel(system, part, c, values);
-    for (const Value& v : its) {
-      dvec3& value = values[v.unknown - part.firstTexel];
-      v.texel->rgb = light.halves(value);
-      value = dvec3(0.);  // is written
-    }
-    for (std::uint32_t i = 0; i < part.texels; ++i) {
-      if (std::max({values[i].x, values[i].y, values[i].z}) < kLeastAdded) continue;
-      const TexelPlace p = system.places[part.firstTexel + i];
-      added.push_back({.map = p.map, .x = p.x, .y = p.y, .rgb = light.halves(values[i])});
-    }
+// Solves a part that the group lights; `lit` are its texels there. Texels that it lights now go to
+// `added`, with their brightness.
+void solvePart(const SeamSystem& system, const SeamPart& part, std::span<const LitUnknown> lit,
+               const Brightness& brightness, std::vector<std::pair<TexelPlace, dvec3>>& added) {
+  std::vector<dvec3> values(part.texels, dvec3(0.));
+  for (const LitUnknown& texel : lit)
+    values[texel.unknown - part.firstTexel] = brightness.of(irradianceAt(texel.red, kTileTexels));
+  for (int c = 0; c < 3; ++c) solveChannel(system, part, c, values);
+  for (const LitUnknown& texel : lit) {
+    dvec3& value = values[texel.unknown - part.firstTexel];
+    write(brightness.halves(value), texel.red, kTileTexels);
+    value = dvec3(0.);  // is written
   }
-  lit.insert(lit.end(), added.begin(), added.end());
-  std::ranges::sort(lit, {}, placeOf);
+  for (std::uint32_t i = 0; i < part.texels; ++i)
+    if (std::max({values[i].x, values[i].y, values[i].z}) >= kLeastAdded)
+      added.emplace_back(system.places()[part.firstTexel + i], values[i]);
+}
+
+// Solves the parts that the group lights.
+void solveGroup(const SeamSystem& system, HalfTiles& group, const Brightness& brightness) {
+  const std::vector<LitUnknown> lit = litUnknowns(system, group);
+  std::vector<std::pair<TexelPlace, dvec3>> added;
+  for (std::size_t at = 0; at < lit.size() && !Progress::cancelled();) {
+    const SeamPart& part = system.parts()[system.partOf(lit[at].unknown)];
+    const std::size_t first = at;
+    while (at < lit.size() && lit[at].unknown < part.firstTexel + part.texels) ++at;
+    solvePart(system, part, std::span(lit).subspan(first, at - first), brightness, added);
+  }
+  for (const auto& [place, value] : added)
+    write(brightness.halves(value), group.add(place.map, place.x, place.y), kTileTexels);
+}
+
+std::vector<vec3> shownBy(const Brightness& brightness, const std::vector<vec3>& irradiance) {
+  std::vector<vec3> shown;
+  shown.reserve(irradiance.size());
+  for (const vec3& e : irradiance) shown.emplace_back(brightness.of(e));
+  return shown;
+}
+
+std::vector<vec3> sumOf(const std::vector<vec3>& a, const std::vector<vec3>& b) {
+  std::vector<vec3> sum = a;
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += b[i];
+  return sum;
 }
 
 }  // namespace
 
-SeamReport closeSeams(const Plan& plan, BakedLight& baked) {
+std::array<std::uint16_t, 3> Brightness::halves(dvec3 brightness) const {
+  const vec3 e(glm::min(brightness * white_, double{kLargestHalf}));
+  return {halfFromFloat(e.x), halfFromFloat(e.y), halfFromFloat(e.z)};
+}
+
+Seams::Seams(const Plan& plan, const MapTexels& texels)
+    : plan_(plan), brightness_(*plan.world.scene) {
   const auto start = Clock::now();
-  const Light light(*plan.world.scene);
-  const std::vector<Seam> seams = findSeams(plan);
-  if (seams.empty() || Progress::cancelled()) return {};
+  std::vector<Seam> seams = findSeams(plan);
+  if (seams.empty() || Progress::cancelled()) return;
   const auto tracer = makeEmbreeTracer(plan.world);
-  const SeamSystem system =
-      seamSystem(seams, seamPoints(seams, 0, *tracer), seamPoints(seams, 1, *tracer), baked.texels);
-  if (Progress::cancelled()) return {};
-  Progress progress("closing seams", 3 * system.parts.size() + baked.groups.size());
-  SeamReport report;
-  report.seams = seams.size();
-  report.texels = system.places.size();
-  report.samples = system.samples.size();
-  report.parts = system.parts.size();
-  report.before = stepsOf(system, sumOf(system, baked, light));
-  report.mostIterations = solveMaps(system, baked, light, progress);
-  parallelFor(baked.groups.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      solveGroup(system, baked.groups[i], light);
-      progress.advance();
+  std::vector<SeamPoint> points = seamPoints(seams, 0, *tracer),
+                         between = seamPoints(seams, 1, *tracer);
+  system_.emplace(std::move(seams), std::move(points), std::move(between), texels);
+  const std::size_t unknowns = system_->places().size();
+  report_.seams = system_->seamCount();
+  report_.texels = unknowns;
+  report_.samples = system_->points().size();
+  report_.parts = system_->parts().size();
+  for (auto* list : {&before_, &maps_, &groups_}) list->assign(unknowns, vec3(0.f));
+  report_.seconds = secondsSince(start);
+}
+
+void Seams::close(BakedLight& baked) {
+  if (!system_ || Progress::cancelled()) return;
+  const auto start = Clock::now();
+  if (!baked.maps.empty()) closeMaps(baked);
+  closeGroups(baked);
+  report_.seconds += secondsSince(start);
+}
+
+void Seams::closeMaps(BakedLight& baked) {
+  const auto shown = [&](Encoding encoding) {
+    return shownBy(brightness_, encodedTexels(baked.maps, system_->places(), encoding));
+  };
+  before_ = shown(Encoding::Png);  // as they are
+  report_.mostIterations = solveMaps(*system_, baked.maps, brightness_);
+  maps_ = shown(Encoding::Png);
+  for (const Encoding encoding : plan_.settings.encodings)
+    if (encoding != Encoding::Png) {
+      report_.encoded.push_back({encoding, {}});
+      encodedMaps_.push_back(shown(encoding));
     }
+}
+
+void Seams::closeGroups(BakedLight& baked) {
+  for (HalfTiles& group : baked.groups) addTo(before_, *system_, group, brightness_);
+  parallelFor(baked.groups.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) solveGroup(*system_, baked.groups[i], brightness_);
   });
-  report.after = stepsOf(system, sumOf(system, baked, light));
-  for (const Encoding encoding : plan.settings.encodings)
-    if (encoding != Encoding::Png)
-      report.encoded.push_back({encoding, stepsOf(system, sumOf(system, baked, light, encoding))});
-  report.seconds = secondsSince(start);
+  for (HalfTiles& group : baked.groups) addTo(groups_, *system_, group, brightness_);
+}
+
+SeamReport Seams::report() const {
+  SeamReport report = report_;
+  if (!system_) return report;
+  report.before = stepsOf(*system_, before_);
+  report.after = stepsOf(*system_, sumOf(maps_, groups_));
+  for (std::size_t i = 0; i < report.encoded.size(); ++i)
+    report.encoded[i].after = stepsOf(*system_, sumOf(encodedMaps_[i], groups_));
   return report;
+}
+
+SeamReport closeSeams(const Plan& plan, BakedLight& baked) {
+  Seams seams(plan, baked.texels);
+  seams.close(baked);
+  return seams.report();
 }
 
 }  // namespace lucerna::bake

@@ -15,6 +15,8 @@
 namespace lucerna::bake {
 namespace {
 
+using lightmap::HalfTiles;
+using lightmap::kTileTexels;
 using Light = std::function<vec3(vec3 positionW, vec3 normalW)>;  // brightness
 using Key = std::array<float, 3>;
 
@@ -99,10 +101,9 @@ BakedLight bakedOf(const Plan& plan, const std::vector<Light>& lights) {
         if (g == 0)
           std::ranges::copy(rgb, baked.maps[map].pixel<std::uint16_t>(p.x, p.y));
         else if (light != vec3(0.f))
-          baked.groups[g].push_back({.map = static_cast<std::uint16_t>(map),
-                                     .x = static_cast<std::uint16_t>(p.x),
-                                     .y = static_cast<std::uint16_t>(p.y),
-                                     .rgb = rgb});
+          for (std::size_t c = 0; c < 3; ++c)
+            baked.groups[g].add(static_cast<std::uint16_t>(map), p.x, p.y)[c * kTileTexels] =
+                rgb[c];
       }
     }
   }
@@ -360,6 +361,15 @@ TEST(Seams, StepsOfEncodedMapsAreThoseOfWholeMaps) {
   }
 }
 
+std::vector<std::array<int, 6>> bitsOf(const HalfTiles& group) {
+  std::vector<std::array<int, 6>> list;
+  for (const std::uint32_t slot : group.sorted())
+    group.forTexelsOf(slot, [&](std::uint16_t map, int x, int y, const std::uint16_t* red) {
+      list.push_back({map, x, y, red[0], red[kTileTexels], red[2 * kTileTexels]});
+    });
+  return list;
+}
+
 TEST(Seams, AnyNumberOfThreadsGivesTheSameBits) {
   TestScene scene;
   scene.add(sphere(16));
@@ -374,16 +384,35 @@ TEST(Seams, AnyNumberOfThreadsGivesTheSameBits) {
     closeSeams(plan, results.back());
   }
   setThreadCount(threads);
-  const auto bits = [](const std::vector<LitTexel>& lit) {
-    std::vector<std::array<int, 6>> list;
-    for (const LitTexel& t : lit) list.push_back({t.map, t.x, t.y, t.rgb[0], t.rgb[1], t.rgb[2]});
-    return list;
-  };
   for (const std::size_t other : {1u, 2u}) {
     EXPECT_TRUE(sameMaps(results[0], results[other]));
     for (const std::size_t g : {1u, 2u})
-      EXPECT_EQ(bits(results[0].groups[g]), bits(results[other].groups[g]));
+      EXPECT_EQ(bitsOf(results[0].groups[g]), bitsOf(results[other].groups[g]));
   }
+}
+
+// As finish() does with more groups than memory should hold.
+TEST(Seams, GroupByGroupIsTheSameAsAllAtOnce) {
+  TestScene scene;
+  scene.add(sphere(16));
+  Plan plan = planOf(scene, 20.f);
+  plan.groups.resize(3);
+  BakedLight together = bakedOf(plan, {wavy, lampAbove, wavy});
+  const BakedLight before = together;
+  const SeamReport wanted = closeSeams(plan, together);
+  Seams seams(plan, before.texels);
+  BakedLight part{.texels = before.texels, .maps = before.maps, .groups = {}};
+  seams.close(part);
+  EXPECT_TRUE(sameMaps(part, together));
+  part.maps.clear();
+  for (const std::size_t g : {1u, 2u}) {
+    part.groups.assign(3, HalfTiles(3));
+    part.groups[g] = before.groups[g];
+    seams.close(part);
+    EXPECT_EQ(bitsOf(part.groups[g]), bitsOf(together.groups[g]));
+  }
+  EXPECT_NEAR(seams.report().before.percentile99, wanted.before.percentile99, 1e-6);
+  EXPECT_NEAR(seams.report().after.percentile99, wanted.after.percentile99, 1e-6);
 }
 
 // Of a map that is solved alone and one that a group is added to, the largest difference; steps of
@@ -400,13 +429,13 @@ Sum addUp(const Light& always, const Light& group) {
   plan.groups.resize(2);
   BakedLight parts = bakedOf(plan, {always, group});
   closeSeams(plan, parts);
-  EXPECT_TRUE(std::ranges::is_sorted(
-      parts.groups[1], {}, [](const LitTexel& t) { return std::tuple(t.map, t.y, t.x); }));
-  for (const LitTexel& t : parts.groups[1]) {
-    std::uint16_t* e = parts.maps[t.map].pixel<std::uint16_t>(t.x, t.y);
-    for (std::size_t c = 0; c < 3; ++c)
-      e[c] = halfFromFloat(floatFromHalf(e[c]) + floatFromHalf(t.rgb[c]));
-  }
+  for (const std::uint32_t slot : parts.groups[1].sorted())
+    parts.groups[1].forTexelsOf(
+        slot, [&](std::uint16_t map, int x, int y, const std::uint16_t* red) {
+          std::uint16_t* e = parts.maps[map].pixel<std::uint16_t>(x, y);
+          for (std::size_t c = 0; c < 3; ++c)
+            e[c] = halfFromFloat(floatFromHalf(e[c]) + floatFromHalf(red[c * kTileTexels]));
+        });
   Sum result;
   result.percentile99 = percentile99(stepsOf(plan, parts));
   for (int y = 0; y < sum.texels.side; ++y)
@@ -438,10 +467,9 @@ TEST(Seams, TheSolutionIsTheLeastThatIsNotNegative) {
   const BakedLight baked = bakedOf(plan, {wavy});
   const std::vector<Seam> seams = findSeams(plan);
   const auto tracer = makeEmbreeTracer(plan.world);
-  const SeamSystem system =
-      seamSystem(seams, seamPoints(seams, 0, *tracer), seamPoints(seams, 1, *tracer), baked.texels);
+  const SeamSystem system(seams, seamPoints(seams, 0, *tracer), {}, baked.texels);
   int zeros = 0;
-  for (const SeamPart& part : system.parts) {
+  for (const SeamPart& part : system.parts()) {
     // Stripes of light and none.
     std::vector<double> start(part.texels);
     for (std::uint32_t i = 0; i < part.texels; ++i) start[i] = i % 97 == 0 ? 50 : i / 5 % 2;
@@ -449,9 +477,8 @@ TEST(Seams, TheSolutionIsTheLeastThatIsNotNegative) {
     solve(system, part, values);
     std::vector<double> gradient(part.texels);
     for (std::uint32_t i = 0; i < part.texels; ++i)
-      gradient[i] = double{system.stiffness[part.firstTexel + i]} * (values[i] - start[i]);
-    for (std::uint32_t s = part.firstSample; s < part.firstSample + part.samples; ++s) {
-      const SeamSample& sample = system.samples[s];
+      gradient[i] = double{system.stiffness()[part.firstTexel + i]} * (values[i] - start[i]);
+    for (const SeamSample& sample : system.samplesOf(part)) {
       double off = 0.;
       for (std::size_t k = 0; k < 8; ++k)
         off += double{sample.weights[k]} * values[sample.texels[k] - part.firstTexel];

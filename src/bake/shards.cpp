@@ -5,6 +5,9 @@
 #include <map>
 #include <set>
 
+#include "bake/shadow_tracer.hpp"
+#include "core/hash.hpp"
+
 namespace lucerna::bake {
 namespace {
 
@@ -41,6 +44,11 @@ std::vector<std::uint32_t> unitsOf(std::size_t units, const Shard& shard) {
        i += static_cast<std::uint32_t>(shard.count))
     mine.push_back(i);
   return mine;
+}
+
+std::uint64_t logHash(const Plan& plan) {
+  const std::string_view processor = rayInstructionSet();
+  return hashCombine(plan.hash, hashBytes(std::as_bytes(std::span(processor))));
 }
 
 fs::path orderPath(const fs::path& folder) {

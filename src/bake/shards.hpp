@@ -17,6 +17,9 @@ struct Shard {
 
 std::vector<std::uint32_t> unitsOf(std::size_t units, const Shard& shard);
 
+// What logs are checked by: light of another kind of processor differs in the last bits.
+std::uint64_t logHash(const Plan& plan);
+
 std::filesystem::path orderPath(const std::filesystem::path& folder);  // bake/bake_order.hpp
 std::filesystem::path logPath(const std::filesystem::path& folder, const Shard& shard);
 // In the order of their names.

@@ -29,8 +29,8 @@ double product(std::span<const double> a, std::span<const double> b) {
 class Solver {
  public:
   Solver(const SeamSystem& system, const SeamPart& part, std::span<double> values)
-      : samples_(std::span(system.samples).subspan(part.firstSample, part.samples)),
-        stiffness_(std::span(system.stiffness).subspan(part.firstTexel, part.texels)),
+      : samples_(system.samplesOf(part)),
+        stiffness_(system.stiffness().subspan(part.firstTexel, part.texels)),
         first_(part.firstTexel),
         values_(values),
         scale_(stiffness_.begin(), stiffness_.end()) {
@@ -145,7 +145,7 @@ class Solver {
     way_ = free();
   }
 
-  std::span<const SeamSample> samples_;
+  std::vector<SeamSample> samples_;
   std::span<const float> stiffness_;
   std::uint32_t first_;
   std::span<double> values_;

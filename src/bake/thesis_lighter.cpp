@@ -120,7 +120,7 @@ void ThesisLighter::lightBySphere(const Samples& samples, const Part& part,
 void ThesisLighter::lightPart(const Samples& samples, const Part& part,
                               std::span<const PlacedLight> lights, bool emitters) {
   for (const PlacedLight& light : lights) {
-    const int points = hasSize(light) ? lightSamples_ : 1;
+    const int points = pointsOf(light);
     if (points == 1) {
       lightBy(samples, part, middleOf(light), 1.f);
       continue;

@@ -61,6 +61,13 @@ scene::Light& addOne(scene::Scene& scene, LightKind kind) {
   return addLight(scene, kind, {0.2f, 2.1f, 0.4f}, vec3(0.1f, -1.f, -0.3f));
 }
 
+// As `standard`, without edges of shadows from more places, which engine octree leaves out.
+Sampling onePlace() {
+  Sampling sampling = kStandard;
+  sampling.finePositions = 0;
+  return sampling;
+}
+
 TEST(ThesisLighter, PointsGiveTheSameByBothEngines) {
   for (const LightKind kind : {LightKind::Point, LightKind::Spot, LightKind::Directional})
     for (const float exponent : {0.f, 0.5f}) {
@@ -69,7 +76,7 @@ TEST(ThesisLighter, PointsGiveTheSameByBothEngines) {
       light.exponent = exponent;
       light.attenuation = {0.5f, 0.2f, 0.3f};
       light.range = 3.5f;  // the floor's far corners are beyond it
-      Plan plan = planOf(scene, {.density = 20.f});
+      Plan plan = planOf(scene, {.density = 20.f, .sampling = onePlace()});
       // Rays along edges may be told apart.
       EXPECT_LT(between(plan).share, 5e-4) << static_cast<int>(kind);
     }
@@ -129,7 +136,7 @@ TEST(ThesisLighter, EveryTexelAsksEveryCellThatItFaces) {
   const LightCounters octree = countersOf(Engine::Octree, plan);
   EXPECT_EQ(octree.rays, texels * lightScene.cells.size());
   EXPECT_EQ(octree.pairs, octree.rays);
-  EXPECT_LT(20 * countersOf(Engine::Embree, plan).rays, octree.rays);
+  EXPECT_LT(3 * countersOf(Engine::Embree, plan).rays, octree.rays);
 }
 
 TEST(ThesisLighter, WhatALampCannotLightCostsNoRay) {

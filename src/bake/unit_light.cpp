@@ -34,10 +34,9 @@ std::unique_ptr<ShadowTracer> makeTracer(const Plan& plan, Engine engine) {
 
 std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) {
   const Sampling& sampling = plan.settings.sampling;
-  // Several places share the points that one asks for.
-  const int shared = sampling.positions == 1 ? 2 : 1;
   const LighterSettings settings{.lightSamples = sampling.lightSamples,
-                                 .fineLightSamples = std::max(sampling.lightSamples / shared, 1),
+                                 .skyPoints = sampling.skyPoints,
+                                 .shared = sampling.positions == 1 ? 2 : 1,
                                  .emitterSize = sampling.emitterSize,
                                  .mostShare = 1.f / static_cast<float>(sampling.lightSamples),
                                  .sceneDiagonal = scene.diagonal,
@@ -202,7 +201,10 @@ void UnitLighter::refine(std::span<const scene::PlacedLight> lights) {
   std::vector<bool> which(samples_.texelCount, false);
   for (const UnevenTexel& u : uneven_.texels) which[u.texel] = true;
   fineSampler_->sample(block_, fineSamples_, which);
-  hidden_.remove(fineSamples_, block_.chart);
+  if (uneven_.around)
+    hidden_.removeBesideOpen(fineSamples_, block_.chart);
+  else
+    hidden_.remove(fineSamples_, block_.chart);
   samplingSeconds += secondsSince(start);
   lighter_->relight(fineSamples_, lights, uneven_.texels, part_);
 }

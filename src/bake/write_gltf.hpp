@@ -5,15 +5,19 @@
 #include <filesystem>
 #include <vector>
 
-#include "bake/assemble.hpp"
 #include "bake/plan.hpp"
+#include "image/image.hpp"
 #include "lightmap/manifest.hpp"
 
 namespace lucerna::bake {
 
-// Writes scene.gltf and what it names. files: all of these are added. What glTF cannot say is told
-// in the log.
-Status writeGltf(const Plan& plan, const BakedLight& baked, const lightmap::Layout& layout,
+// A map as the copy names it.
+Result<lightmap::FileEntry> writePicture(const Image& map, std::size_t index,
+                                         const std::filesystem::path& folder);
+
+// Writes scene.gltf and what it names but these pictures. files: all of these are added. What glTF
+// cannot say is told in the log.
+Status writeGltf(const Plan& plan, const lightmap::Layout& layout,
                  const std::filesystem::path& folder, std::vector<lightmap::FileEntry>& files);
 
 }  // namespace lucerna::bake

@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
-#include "bake/make_patch.hpp"
+#include "bake/map_copies.hpp"
+#include "bake/own_files.hpp"
 #include "bake/write_gltf.hpp"
 #include "core/file.hpp"
 #include "core/hash.hpp"
 #include "core/parallel.hpp"
 #include "image/image_file.hpp"
-#include "image/ktx2.hpp"
 #include "lightmap/lightmap.hpp"
 #include "lightmap/scene_hash.hpp"
 
@@ -34,68 +33,30 @@ vec3 largestOf(const Image& map) {
   return largest;
 }
 
-// What viewers show: sRGB of a white surface at the scene's exposure.
-Image pictureOf(const Image& map, float white) {
-  Image picture(map.width(), map.height(), 3, ComponentType::U8);
-  for (int y = 0; y < map.height(); ++y)
-    for (int x = 0; x < map.width(); ++x)
-      for (int c = 0; c < 3; ++c)
-        picture.pixel<std::uint8_t>(x, y)[c] = static_cast<std::uint8_t>(
-            255.f * srgbFromLinear(floatFromHalf(map.pixel<std::uint16_t>(x, y)[c]) / white) +
-            0.5f);
-  return picture;
-}
-
-Result<FileEntry> writeEncoded(const Image& map, std::size_t index, Encoding encoding,
-                               const fs::path& folder, float white) {
-  switch (encoding) {
-    case Encoding::Rgb9e5:
-      return lightmap::writeEntry(folder, fmt::format("map-{:03}.rgb9e5.ktx2", index),
-                                  encodeKtx2({&map, 1}, HdrFormat::Rgb9e5));
-    case Encoding::Bc6h:
-      return lightmap::writeEntry(folder, fmt::format("map-{:03}.bc6h.ktx2", index),
-                                  encodeKtx2({&map, 1}, HdrFormat::Bc6h));
-    case Encoding::Png:
-      break;
-  }
-  const std::string name = fmt::format("map-{:03}.png", index);
-  LUCERNA_TRY(bytes, encodeImage(folder / name, pictureOf(map, white)));
-  return lightmap::writeEntry(folder, name, bytes);
-}
-
-Result<lightmap::MapEntry> writeMap(const Plan& plan, const BakedLight& baked, std::size_t index,
-                                    const fs::path& folder) {
-  const std::string name = fmt::format("map-{:03}.exr", index);
-  LUCERNA_TRY(bytes, encodeImage(folder / name, baked.maps[index]));
+// A map's files: what the manifest says of it, and its picture for the glTF copy.
+struct MapFiles {
   lightmap::MapEntry entry;
-  LUCERNA_TRY(master, lightmap::writeEntry(folder, name, bytes));
-  entry.master = std::move(master);
-  for (const Encoding encoding : plan.settings.encodings) {
-    LUCERNA_TRY(encoded, writeEncoded(baked.maps[index], index, encoding, folder,
-                                      irradianceOfWhite(*plan.world.scene)));
-    entry.encoded.push_back(std::move(encoded));
-  }
-  entry.largest = largestOf(baked.maps[index]);
-  entry.texels = static_cast<std::uint64_t>(std::ranges::count(baked.texels.touched[index], true));
-  return entry;
-}
+  FileEntry picture;
+};
 
-Status writeMaps(const Plan& plan, const BakedLight& baked, const fs::path& folder,
-                 Manifest& manifest) {
-  std::vector<std::optional<Result<lightmap::MapEntry>>> entries(baked.maps.size());
-  Progress progress("writing maps", baked.maps.size());
-  parallelFor(entries.size(), 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
-      entries[i] = writeMap(plan, baked, i, folder);
-      progress.advance();
-    }
-  });
-  LUCERNA_TRY_VOID(checkGoesOn());
-  for (auto& entry : entries) {
-    if (!*entry) return entry->error();
-    manifest.maps.push_back(std::move(**entry));
+Result<MapFiles> writeMap(const Plan& plan, const Image& map, std::size_t index,
+                          const fs::path& folder) {
+  const std::string name = fmt::format("map-{:03}.exr", index);
+  MapFiles files;
+  {
+    LUCERNA_TRY(bytes, encodeImage(folder / name, map));
+    LUCERNA_TRY(master, lightmap::writeEntry(folder, name, bytes));
+    files.entry.master = std::move(master);
   }
-  return {};
+  for (const Encoding encoding : plan.settings.encodings) {
+    LUCERNA_TRY(encoded,
+                writeCopy(map, index, encoding, folder, irradianceOfWhite(*plan.world.scene)));
+    files.entry.encoded.push_back(std::move(encoded));
+  }
+  files.entry.largest = largestOf(map);
+  LUCERNA_TRY(picture, writePicture(map, index, folder));
+  files.picture = std::move(picture);
+  return files;
 }
 
 // What is factored out of a group's light: the mean of its lights, so that what is stored of lights
@@ -118,19 +79,6 @@ std::vector<std::vector<bool>> usedTexels(const MapTexels& texels) {
   return used;
 }
 
-MadePatch makePatch(const PatchMaker& maker, const LightGroup& group, std::span<const LitTexel> lit,
-                    const PatchTolerance& tolerance) {
-  std::vector<PatchTexel> texels;
-  texels.reserve(lit.size());
-  for (const LitTexel& t : lit)
-    texels.push_back(
-        {.map = t.map,
-         .x = t.x,
-         .y = t.y,
-         .value = {floatFromHalf(t.rgb[0]), floatFromHalf(t.rgb[1]), floatFromHalf(t.rgb[2])}});
-  return maker.make({.group = group.name, .color = colorOf(group), .texels = texels}, tolerance);
-}
-
 // As asked for; else a quarter of what can be seen at once, as several groups may add up.
 PatchTolerance toleranceOf(const Plan& plan) {
   const float light = plan.settings.patchTolerance ? kPi * *plan.settings.patchTolerance
@@ -138,33 +86,22 @@ PatchTolerance toleranceOf(const Plan& plan) {
   return {.light = light, .black = light / 16.f};
 }
 
-Status writePatches(const Plan& plan, const BakedLight& baked, const lightmap::Layout& layout,
-                    const fs::path& folder, Manifest& manifest) {
-  if (plan.groups.size() < 2) return {};
-  const std::vector<std::vector<bool>> used = usedTexels(baked.texels);
-  const PatchMaker maker(layout, used);
-  const PatchTolerance tolerance = toleranceOf(plan);
-  std::vector<MadePatch> made(plan.groups.size());
-  Progress progress("making patches", made.size() - 1);
-  parallelFor(made.size() - 1, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin + 1; i < end + 1 && !Progress::cancelled(); ++i) {
-      made[i] = makePatch(maker, plan.groups[i], baked.groups[i], tolerance);
-      progress.advance();
-    }
-  });
-  for (std::size_t i = 1; i < made.size(); ++i) {
-    LUCERNA_TRY_VOID(checkGoesOn());
-    lightmap::PatchEntry entry;
-    entry.group = plan.groups[i].name;
-    LUCERNA_TRY(file,
-                lightmap::writeEntry(folder, fmt::format("patch-{:03}.bin", i - 1), made[i].bytes));
-    entry.patch = std::move(file);
-    entry.form = made[i].patch.form();
-    entry.bytes = made[i].bytes.size();
-    entry.otherBytes = made[i].otherBytes;
-    manifest.patches.push_back(std::move(entry));
-  }
-  return {};
+// A patch as its file, with what the manifest says of it.
+struct PatchFile {
+  lightmap::PatchEntry entry;
+  Bytes bytes;
+};
+
+PatchFile patchOf(const PatchMaker& maker, const LightGroup& group,
+                  const lightmap::HalfTiles& irradiance, const PatchTolerance& tolerance) {
+  MadePatch made = maker.make(
+      {.group = group.name, .color = colorOf(group), .irradiance = irradiance}, tolerance);
+  PatchFile file{.entry = {}, .bytes = std::move(made.bytes)};
+  file.entry.group = group.name;
+  file.entry.form = made.patch.form();
+  file.entry.bytes = file.bytes.size();
+  file.entry.otherBytes = made.otherBytes;
+  return file;
 }
 
 void describeScene(const Plan& plan, Manifest& manifest) {
@@ -198,51 +135,79 @@ void describeScene(const Plan& plan, Manifest& manifest) {
              .hash = lightmap::hashText16(lightmap::lightHash(scene, light.light))});
 }
 
-// Removes what the manifest does not name: files of an earlier bake, and of one that was killed.
-void removeOthers(const fs::path& folder, const Manifest& manifest) {
-  std::set<std::string> names{kManifestFile};
-  for (const FileEntry& entry : lightmap::filesOf(manifest)) names.insert(entry.file);
-  std::error_code ignored;
-  std::vector<fs::path> others;
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (const std::string name = entry.path().filename().string();
-        isLightmapFile(name) && !names.contains(name))
-      others.push_back(entry.path());
-  for (const fs::path& other : others) fs::remove(other, ignored);
-}
-
 }  // namespace
 
-bool isLightmapFile(const std::string& name) {
-  // Its start, three digits or more, and how it ends.
-  const auto isNumbered = [&](std::string_view start,
-                              std::initializer_list<std::string_view> ends) {
-    if (!name.starts_with(start)) return false;
-    const std::size_t digits = name.find_first_not_of("0123456789", start.size());
-    return digits != std::string::npos && digits >= start.size() + 3 &&
-           std::ranges::find(ends, std::string_view(name).substr(digits)) != ends.end();
-  };
-  return name == kManifestFile || name == kLayoutFile || name == "scene.gltf" ||
-         name == "scene.bin" || isNumbered("patch-", {".bin"}) || isNumbered("tex-", {".png"}) ||
-         isNumbered("map-", {".exr", ".hdr", ".png", ".rgb9e5.ktx2", ".bc6h.ktx2"});
+LightmapWriter::LightmapWriter(const Plan& plan, fs::path folder)
+    : plan_(plan), folder_(std::move(folder)), layout_(layoutOf(plan)) {
+  describeScene(plan, manifest_);
 }
 
-Status writeLightmap(const Plan& plan, const BakedLight& baked, const fs::path& folder,
-                     std::uint64_t& texels) {
-  Manifest manifest;
-  describeScene(plan, manifest);
-  const lightmap::Layout layout = layoutOf(plan);
-  LUCERNA_TRY(entry, lightmap::writeEntry(folder, kLayoutFile, lightmap::toBytes(layout)));
-  manifest.layout = std::move(entry);
-  LUCERNA_TRY_VOID(writeMaps(plan, baked, folder, manifest));
-  LUCERNA_TRY_VOID(writePatches(plan, baked, layout, folder, manifest));
-  LUCERNA_TRY_VOID(writeGltf(plan, baked, layout, folder, manifest.gltf));
+Result<LightmapWriter> LightmapWriter::begin(const Plan& plan, const fs::path& folder) {
+  LUCERNA_TRY_VOID(claimFiles(plan, folder));
+  LightmapWriter writer(plan, folder);
+  LUCERNA_TRY(entry, lightmap::writeEntry(folder, kLayoutFile, lightmap::toBytes(writer.layout_)));
+  writer.manifest_.layout = std::move(entry);
+  return writer;
+}
+
+Status LightmapWriter::writeMaps(const std::vector<Image>& maps, const MapTexels& texels) {
+  std::vector<std::optional<Result<MapFiles>>> files(maps.size());
+  Progress progress("writing maps", maps.size());
+  parallelFor(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
+      files[i] = writeMap(plan_, maps[i], i, folder_);
+      progress.advance();
+    }
+  });
   LUCERNA_TRY_VOID(checkGoesOn());
-  texels = 0;
-  for (const lightmap::MapEntry& map : manifest.maps) texels += map.texels;
-  LUCERNA_TRY_VOID(writeText(folder / kManifestFile, lightmap::toJson(manifest)));
-  removeOthers(folder, manifest);
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (!*files[i]) return files[i]->error();
+    MapFiles& its = **files[i];
+    its.entry.texels = static_cast<std::uint64_t>(std::ranges::count(texels.touched[i], true));
+    manifest_.maps.push_back(std::move(its.entry));
+    pictures_.push_back(std::move(its.picture));
+  }
+  if (plan_.groups.size() > 1) {
+    used_ = usedTexels(texels);
+    maker_ = std::make_unique<PatchMaker>(layout_, used_);
+  }
   return {};
+}
+
+Status LightmapWriter::writePatches(const BakedLight& baked, const GroupRange& groups,
+                                    Progress& progress) {
+  const PatchTolerance tolerance = toleranceOf(plan_);
+  std::vector<PatchFile> files(groups.last - groups.first);
+  parallelFor(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end && !Progress::cancelled(); ++i) {
+      const std::size_t group = groups.first + i;
+      files[i] = patchOf(*maker_, plan_.groups[group], baked.groups[group], tolerance);
+      progress.advance();
+    }
+  });
+  LUCERNA_TRY_VOID(checkGoesOn());
+  for (PatchFile& file : files) {
+    const std::string name = fmt::format("patch-{:03}.bin", manifest_.patches.size());
+    LUCERNA_TRY(entry, lightmap::writeEntry(folder_, name, file.bytes));
+    file.entry.patch = std::move(entry);
+    manifest_.patches.push_back(std::move(file.entry));
+  }
+  return {};
+}
+
+Status LightmapWriter::end() {
+  manifest_.gltf = std::move(pictures_);
+  LUCERNA_TRY_VOID(writeGltf(plan_, layout_, folder_, manifest_.gltf));
+  LUCERNA_TRY_VOID(checkGoesOn());
+  LUCERNA_TRY_VOID(writeText(folder_ / kManifestFile, lightmap::toJson(manifest_)));
+  removeUnnamed(folder_, manifest_);
+  return {};
+}
+
+std::uint64_t LightmapWriter::texels() const {
+  std::uint64_t texels = 0;
+  for (const lightmap::MapEntry& map : manifest_.maps) texels += map.texels;
+  return texels;
 }
 
 }  // namespace lucerna::bake

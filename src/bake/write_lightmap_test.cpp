@@ -34,9 +34,10 @@ class WriteLightmap : public testing::Test {
     ASSERT_TRUE(plan) << plan.error().message;
     BakedLight baked = emptyLight(*plan);
     for (Image& map : baked.maps) map.pixel<std::uint16_t>(3, 5)[1] = halfFromFloat(200.f);
-    std::uint64_t texels = 0;
-    const Status written = writeLightmap(*plan, baked, folder_.path(), texels);
-    ASSERT_TRUE(written) << written.error().message;
+    Result<LightmapWriter> writer = LightmapWriter::begin(*plan, folder_.path());
+    ASSERT_TRUE(writer) << writer.error().message;
+    ASSERT_TRUE(writer->writeMaps(baked.maps, baked.texels));
+    ASSERT_TRUE(writer->end());
   }
   std::set<std::string> names() const {
     std::set<std::string> result;

@@ -112,7 +112,7 @@ class Builder final : public nlohmann::json_sax<Library> {
     const std::string complaint = complaintOf(fault.what());
     const bool strayWord = complaint == "invalid literal";
     if (complaint.find("UTF-8") != std::string::npos || (strayWord && isBeyondAscii(word)))
-      return stop("holds a text that is not UTF-8; save the file as UTF-8");
+      return stopAtForeignByte();
     if (strayWord) return stop(fmt::format("is no JSON: found {}; texts need double quotes", word));
     return stop("is no JSON: " + complaint);
   }
@@ -121,6 +121,15 @@ class Builder final : public nlohmann::json_sax<Library> {
   bool stop(std::string complaint) {
     complaint_ = std::move(complaint);
     return false;
+  }
+
+  // The parser may have noticed only by what comes after it.
+  bool stopAtForeignByte() {
+    while (at_ > 0 && !isBeyondAscii(text_.substr(at_, 1))) --at_;
+    return stop(
+        fmt::format("found the byte 0x{:02X}, wanted UTF-8; the file is damaged there, or has to "
+                    "be saved as UTF-8",
+                    static_cast<unsigned char>(text_[at_])));
   }
 
   // Of what was read last. A number ends one byte before what was reached.

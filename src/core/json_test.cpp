@@ -59,9 +59,13 @@ TEST(Json, SaysInItsOwnWordsWhereATextIsNoJson) {
             "a.json:1:7: found NaN, wanted a finite number; JSON has no others");
   EXPECT_THAT(faultOf("{\"a\": nan}"), HasSubstr("found nan, wanted a finite number"));
   EXPECT_THAT(faultOf("{\"a\": -Infinity}"), HasSubstr("found -Infinity, wanted a finite number"));
-  EXPECT_THAT(faultOf("\n{\"a\": \"\xff\"}"),
-              AllOf(StartsWith("a.json:2:"), HasSubstr("save the file as UTF-8")));
-  EXPECT_THAT(faultOf("\xff\xfe{"), HasSubstr("save the file as UTF-8"));
+  EXPECT_EQ(faultOf("\n{\"a\": \"\xff\"}"),
+            "a.json:2:8: found the byte 0xFF, wanted UTF-8; the file is damaged there, or has to "
+            "be saved as UTF-8");
+  // One that could begin a character.
+  EXPECT_THAT(faultOf("\n{\"a\": \"M\xfcll\"}"), StartsWith("a.json:2:9: found the byte 0xFC,"));
+  EXPECT_THAT(faultOf("\"ab\xe9"), StartsWith("a.json:1:4: found the byte 0xE9,"));
+  EXPECT_THAT(faultOf("\xff\xfe{"), HasSubstr("saved as UTF-8"));
   EXPECT_THAT(faultOf("{\"a\" 1}"), AllOf(StartsWith("a.json:1:7: is no JSON"), HasSubstr("':'")));
   EXPECT_THAT(faultOf("{\"a\": 1,}"), StartsWith("a.json:1:9: is no JSON"));
   EXPECT_THAT(faultOf("{\"a\": 1} x"), StartsWith("a.json:1:10: is no JSON"));

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/hash.hpp"
+#include "core/time_text.hpp"
 
 namespace lucerna {
 namespace {
@@ -77,6 +78,27 @@ TEST(Text, CountsOneAndMany) {
   EXPECT_EQ(counted(1, "map"), "1 map");
   EXPECT_EQ(counted(0, "map"), "0 maps");
   EXPECT_EQ(counted(12, "chart"), "12 charts");
+}
+
+TEST(Text, TimesAreAsPeopleSayThem) {
+  EXPECT_EQ(secondsText(0.04), "under 0.1 s");
+  EXPECT_EQ(secondsText(9.94), "9.9 s");
+  EXPECT_EQ(secondsText(4), "4 s");
+  EXPECT_EQ(secondsText(9.96), "10 s");
+  EXPECT_EQ(secondsText(119.4), "119 s");
+  EXPECT_EQ(secondsText(119.6), "2 min");
+  EXPECT_EQ(secondsText(185), "3 min 5 s");
+  EXPECT_EQ(secondsText(3599.6), "1 h");
+  EXPECT_EQ(secondsText(339 * 60 + 50), "5 h 40 min");
+  EXPECT_EQ(secondsText(76 * 3600.), "3 d 4 h");
+}
+
+TEST(Text, EstimatesSayNoMoreThanTheyKnow) {
+  EXPECT_EQ(aboutText(18, 4), "about 18 s, give or take 4 s");
+  EXPECT_EQ(aboutText(20400, 3600), "about 5 h 40 min, give or take 1 h");
+  EXPECT_EQ(aboutText(18, 18.5), "at most 37 s");
+  EXPECT_EQ(aboutText(18, 0.4), "about 18 s");
+  EXPECT_EQ(aboutText(0.02, 0), "about 0.1 s");
 }
 
 }  // namespace

@@ -34,7 +34,13 @@ extern const Format kPng, kJpeg, kBmp, kHdr, kExr, kKtx2, kTga;
 // Encoders give the whole file; `name` is used in messages.
 Result<Bytes> encodePng(const Image& image, const std::string& name);
 Result<Bytes> encodeHdr(const Image& image, const std::string& name);
-Result<Bytes> encodeExr(const std::vector<ExrLayer>& layers, const std::string& name);
+// A layer to be written, as ExrLayer; the image is the caller's.
+struct ExrSource {
+  std::string name;
+  std::vector<std::string> channels;
+  const Image& image;
+};
+Result<Bytes> encodeExr(std::span<const ExrSource> layers, const std::string& name);
 Result<std::vector<ExrLayer>> decodeExrLayers(ByteView bytes, const std::string& name,
                                               const ImageLimits& limits);
 

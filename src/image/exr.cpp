@@ -214,9 +214,9 @@ Result<Image> decode(ByteView bytes, const std::string& name) {
   return withoutExceptions(name, [&] { return decodeMain(bytes, name); });
 }
 
-Status checkLayers(const std::vector<ExrLayer>& layers, const std::string& name) {
+Status checkLayers(std::span<const ExrSource> layers, const std::string& name) {
   CHECK(!layers.empty());
-  for (const ExrLayer& layer : layers) {
+  for (const ExrSource& layer : layers) {
     const ComponentType type = layer.image.type();
     CHECK(layer.channels.size() == static_cast<std::size_t>(layer.image.channels()));
     CHECK(layer.image.width() == layers[0].image.width() &&
@@ -228,7 +228,7 @@ Status checkLayers(const std::vector<ExrLayer>& layers, const std::string& name)
   return {};
 }
 
-void addLayer(const ExrLayer& layer, Imf::Header& header, Imf::FrameBuffer& source) {
+void addLayer(const ExrSource& layer, Imf::Header& header, Imf::FrameBuffer& source) {
   const Image& image = layer.image;
   const Imf::PixelType type = image.type() == ComponentType::Half ? Imf::HALF : Imf::FLOAT;
   const std::size_t component = bytesPer(image.type());
@@ -251,13 +251,13 @@ Result<std::vector<ExrLayer>> decodeExrLayers(ByteView bytes, const std::string&
   return withoutExceptions(name, [&] { return decodeAll(bytes, name, limits); });
 }
 
-Result<Bytes> encodeExr(const std::vector<ExrLayer>& layers, const std::string& name) {
+Result<Bytes> encodeExr(std::span<const ExrSource> layers, const std::string& name) {
   LUCERNA_TRY_VOID(checkLayers(layers, name));
   try {
     Imf::Header header(layers[0].image.width(), layers[0].image.height());
     header.compression() = Imf::ZIP_COMPRESSION;
     Imf::FrameBuffer source;
-    for (const ExrLayer& layer : layers) addLayer(layer, header, source);
+    for (const ExrSource& layer : layers) addLayer(layer, header, source);
     MemoryOutput stream(name);
     {
       Imf::OutputFile file(stream, header);

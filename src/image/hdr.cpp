@@ -158,15 +158,18 @@ Result<Bytes> encodeHdr(const Image& image, const std::string& name) {
   if (image.type() != ComponentType::F32 && image.type() != ComponentType::Half)
     return error(ErrorKind::Usage, "{}: HDR holds linear floats; write 8-bit pictures as .png",
                  name);
-  const Image rgb = converted(image, ComponentType::F32, 3);
-  const int width = rgb.width();
+  const int width = image.width();
   const std::string text =
-      fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", rgb.height(), width);
+      fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height(), width);
   const auto textBytes = std::as_bytes(std::span(text));
   Bytes out(textBytes.begin(), textBytes.end());
   std::vector<std::uint8_t> rgbe(static_cast<std::size_t>(width) * 4);
-  for (int y = 0; y < rgb.height(); ++y) {
-    for (int x = 0; x < width; ++x) packPixel(rgb.pixel<float>(x, y), rgbe.data() + 4 * x);
+  Image row(width, 1, image.channels(), image.type());
+  for (int y = 0; y < image.height(); ++y) {
+    std::ranges::copy(image.bytes().subspan(y * image.rowBytes(), image.rowBytes()),
+                      row.bytes().begin());
+    const Image rgb = converted(row, ComponentType::F32, 3);
+    for (int x = 0; x < width; ++x) packPixel(rgb.pixel<float>(x, 0), rgbe.data() + 4 * x);
     if (width < kLeastRunLengthWidth || width > kMostRunLengthWidth) {
       const auto raw = std::as_bytes(std::span(rgbe));
       out.insert(out.end(), raw.begin(), raw.end());

@@ -100,7 +100,8 @@ Result<Bytes> encodeImage(const std::filesystem::path& path, const Image& image)
   if (equalIgnoringCase(extension, ".exr")) {
     static const std::vector<std::string> kNames[] = {
         {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    return codec::encodeExr({{"", kNames[image.channels() - 1], image}}, path.string());
+    const codec::ExrSource layer{"", kNames[image.channels() - 1], image};
+    return codec::encodeExr({&layer, 1}, path.string());
   }
   return error(ErrorKind::Usage, "{}: pictures are written as .png, .hdr or .exr, not '{}'",
                path.string(), extension);
@@ -113,7 +114,9 @@ Status writeImage(const std::filesystem::path& path, const Image& image) {
 }
 
 Status writeExr(const std::filesystem::path& path, const std::vector<ExrLayer>& layers) {
-  LUCERNA_TRY(bytes, codec::encodeExr(layers, path.string()));
+  std::vector<codec::ExrSource> sources;
+  for (const ExrLayer& layer : layers) sources.push_back({layer.name, layer.channels, layer.image});
+  LUCERNA_TRY(bytes, codec::encodeExr(sources, path.string()));
   return writeFile(path, bytes);
 }
 

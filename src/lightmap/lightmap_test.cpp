@@ -132,6 +132,47 @@ TEST(Manifest, NoOtherByteIsTakenForIt) {
   }
 }
 
+// What is said of a text that is no whole manifest.
+std::string faultOf(const std::string& text) {
+  const Result<Manifest> read = manifestFrom(text, "m/manifest.json");
+  EXPECT_FALSE(read);
+  if (read) return "no fault";
+  EXPECT_EQ(read.error().kind, ErrorKind::Input);
+  return read.error().message;
+}
+
+TEST(Manifest, OfSomethingElseIsOneLine) {
+  const std::string wanted =
+      "m/manifest.json: is not a lightmap's manifest: found no \"lucerna\": \"lightmap/1\"; wanted "
+      "the folder of a finished `lucerna bake`";
+  for (const char* text : {"{\"name\": \"A page\", \"icons\": []}", "[1, 2]", "<html>", "",
+                           "{\"lucerna\": \"scene/1\", \"lights\": []}", "{\"lucerna\": 1}"})
+    EXPECT_EQ(faultOf(text), wanted) << text;
+  std::string newer = toJson(smallManifest());
+  newer.replace(newer.find("lightmap/1"), 10, "lightmap/9");
+  EXPECT_EQ(faultOf(newer),
+            "m/manifest.json: is of another version of this program: found \"lucerna\": "
+            "\"lightmap/9\", wanted \"lightmap/1\"; bake the scene again");
+}
+
+TEST(Manifest, DamageIsOneLineThatSaysSo) {
+  const std::string text = toJson(smallManifest());
+  std::string damaged = text;
+  damaged[text.find("\"density\"") + 3] ^= '\1';  // a key that is unknown, and one that lacks
+  EXPECT_TRUE(
+      faultOf(damaged).starts_with("m/manifest.json: is damaged or was changed: its hash is "))
+      << faultOf(damaged);
+  EXPECT_EQ(faultOf(damaged).find('\n'), std::string::npos);
+  damaged = text;
+  damaged[text.find("\"density\"") + 3] ^= '\x80';
+  const std::string said = faultOf(damaged);
+  EXPECT_TRUE(said.starts_with("m/manifest.json:")) << said;
+  EXPECT_TRUE(
+      said.ends_with(": found the byte 0xEE, wanted UTF-8; the manifest is damaged: bake the "
+                     "scene again"))
+      << said;
+}
+
 TEST(Manifest, ByHandNeedsNoHash) {
   std::string text = toJson(smallManifest());
   const std::size_t at = text.rfind(",\n \"hash\"");

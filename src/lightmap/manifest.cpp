@@ -151,15 +151,49 @@ std::string hashOf(const Json& document) {
   return hashText16(hashText(textOf(document)));
 }
 
+// Whether it says what it is, well-formed or not.
+bool saysLightmap(std::string_view text) {
+  return text.find("\"lightmap/") != std::string_view::npos;
+}
+
+Error noManifest(const std::string& name) {
+  return error(ErrorKind::Input,
+               "{}: is not a lightmap's manifest: found no \"lucerna\": \"{}\"; wanted the folder "
+               "of a finished `lucerna bake`",
+               name, kFormat);
+}
+
+// A lightmap's manifest: what it is comes before what is wrong with it.
+Result<JsonDocument> parsed(std::string_view text, const std::string& name) {
+  auto document = JsonDocument::parse(text, name, ErrorKind::Input);
+  if (!document && !saysLightmap(text)) return noManifest(name);
+  if (!document) {
+    const std::string& fault = document.error().message;  // without what would mend another file
+    return error(ErrorKind::Input, "{}; the manifest is damaged: bake the scene again",
+                 fault.substr(0, fault.find("; ", name.size())));
+  }
+  const JsonValue root = document->root();
+  const JsonNode* format = root.node().find("lucerna");
+  const auto* found = format ? format->as<std::string>() : nullptr;
+  if (!found || !found->starts_with("lightmap/")) return noManifest(name);
+  if (*found == kFormat) return document;
+  return error(ErrorKind::Input,
+               "{}: is of another version of this program: found \"lucerna\": \"{}\", wanted "
+               "\"{}\"; bake the scene again",
+               name, *found, kFormat);
+}
+
 // Of what is said, however it is spaced; a manifest without one is anybody's own.
-void checkHash(const JsonValue& root, Json document) {
-  std::string wanted;
-  if (!root.read("hash", wanted)) return;
+Status checkHash(Json document, const std::string& name) {
+  if (!document.contains("hash")) return {};
+  const Json& hash = document["hash"];
+  const std::string wanted = hash.is_string() ? hash.get<std::string>() : "none";
   document.erase("hash");
-  if (const std::string found = hashOf(document); found != wanted)
-    root.at("hash").fault(fmt::format(
-        "the manifest is damaged or was changed: its hash is {}, wanted {}; bake the scene again",
-        found, wanted));
+  const std::string found = hashOf(document);
+  if (found == wanted) return {};
+  return error(ErrorKind::Input,
+               "{}: is damaged or was changed: its hash is {}, wanted {}; bake the scene again",
+               name, found, wanted);
 }
 
 }  // namespace
@@ -198,14 +232,16 @@ std::string toJson(const Manifest& m) {
 }
 
 Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
-  LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
+  LUCERNA_TRY(document, parsed(text, name));
   const JsonValue root = document.root();
+  // As a whole, too; one that JsonDocument takes is an object here.
+  const Json whole = Json::parse(text, nullptr, false, true);
+  LUCERNA_TRY_VOID(checkHash(whole, name));
   Manifest m;
   if (!root.object({"lucerna", "scene", "settings", "processor", "side", "density", "layout",
                     "maps", "patches", "objects", "lights", "gltf", "hash"}))
     return document.status().error();
-  root.format(kFormat);
-  root.require({"lucerna", "scene", "side", "layout", "maps"});
+  root.require({"scene", "side", "layout", "maps"});
   if (root.has("scene") && root.at("scene").object({"name", "hash", "geometry"})) {
     root.at("scene").read("name", m.scene);
     root.at("scene").read("hash", m.sceneHash);
@@ -220,11 +256,8 @@ Result<Manifest> manifestFrom(std::string_view text, const std::string& name) {
   readList(root, "objects", m.objects);
   readList(root, "lights", m.lights);
   readList(root, "gltf", m.gltf);
-  // As a whole, too; one that JsonDocument takes is an object here.
-  const Json whole = Json::parse(text, nullptr, false, true);
   if (whole.contains("settings"))
     m.settings = whole["settings"].dump(1, ' ', false, Json::error_handler_t::replace);
-  checkHash(root, whole);
   LUCERNA_TRY_VOID(document.status());
   return m;
 }

@@ -19,7 +19,7 @@ struct MapEntry {
   FileEntry master;                // EXR, Half, RGB: irradiance
   std::vector<FileEntry> encoded;  // KTX2 and PNG, as asked for
   vec3 largest{0.f};               // irradiance
-  std::uint64_t texels = 0;        // that lie on the scene
+  std::uint64_t texels = 0;        // that charts cover, without those inside of solids
 };
 
 struct PatchEntry {
@@ -62,7 +62,8 @@ struct Manifest {
 std::vector<FileEntry> filesOf(const Manifest& manifest);
 
 std::string toJson(const Manifest& manifest);
-// Errors (ErrorKind::Input): every fault, one a line. Names of files stay within the folder.
+// Errors (ErrorKind::Input): is no lightmap's, or of another version, or its hash is wrong; else
+// every fault, one a line. Names of files stay within the folder.
 Result<Manifest> manifestFrom(std::string_view text, const std::string& name);
 
 std::string hashText16(std::uint64_t hash);

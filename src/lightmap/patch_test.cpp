@@ -238,7 +238,7 @@ TEST(TexelTiles, AreOffByHalfAStepOfTheirLargest) {
       texels.add(4, 16 + i % 8, 80 + i / 8)[c * kTileTexels] = wanted.back();
     }
   const float step = *std::max_element(wanted.begin(), wanted.end()) / 65535.f;
-  const TileLight light = texels.encoded();
+  const TileLight light = encoded(texels);
   ASSERT_EQ(light.tiles.size(), 1u);
   EXPECT_EQ(light.tiles[0].place, (TilePlace{4, 2, 10}));
   for (std::size_t i = 0; i < 64; ++i)

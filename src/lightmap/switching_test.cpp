@@ -44,7 +44,7 @@ Patch tilePatch(Random& random, std::uint8_t channels) {
           .side = kSide,
           .maps = kMaps,
           .channels = channels,
-          .tiles = texels.encoded()};
+          .tiles = encoded(texels)};
 }
 
 Patch trianglePatch(Random& random, std::uint8_t channels) {
@@ -171,7 +171,7 @@ TEST(SwitchedMaps, HoldTheBrightestOfAllAtOnce) {
                     .color = vec3(0.1f, 0.2f, 0.3f),
                     .side = kSide,
                     .maps = kMaps,
-                    .tiles = texel.encoded()};
+                    .tiles = encoded(texel)};
   const std::vector<Patch> patches(13, patch);
   SwitchedMaps maps = switched(someBase(9), patches);
   const vec3 most(SwitchedMaps::kHeadroom * 0.3f);

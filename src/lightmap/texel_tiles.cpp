@@ -17,9 +17,19 @@ int bitOf(int x, int y) {
   return y % kTileSide * kTileSide + x % kTileSide;
 }
 
+void encode(const TexelTiles::Tile& tile, std::span<const float> values, TileLight& light) {
+  const float scale = *std::ranges::max_element(values) / kLargest;
+  light.tiles.push_back({tile.place, scale, tile.mask});
+  for (const float value : values)
+    light.values.push_back(
+        scale > 0.f ? static_cast<std::uint16_t>(std::min(value / scale, kLargest) + 0.5f)
+                    : std::uint16_t{0});
+}
+
 }  // namespace
 
-std::size_t TexelTiles::slot(TilePlace place) {
+template <typename Value>
+std::size_t TilesOf<Value>::slot(TilePlace place) {
   if (lastSlot_ != kNone && lastPlace_ == place) return lastSlot_;
   const auto found = slots_.find(key(place));
   lastPlace_ = place;
@@ -27,44 +37,43 @@ std::size_t TexelTiles::slot(TilePlace place) {
   return lastSlot_;
 }
 
-const float* TexelTiles::find(std::uint16_t map, int x, int y) {
+template <typename Value>
+const Value* TilesOf<Value>::find(std::uint16_t map, int x, int y) {
   const std::size_t at = slot(placeOf(map, x, y));
   const int bit = bitOf(x, y);
-  return at == kNone || (tiles_[at].mask >> bit & 1) == 0 ? nullptr : texel(at, bit);
+  return at == kNone || (tiles_[at].mask >> bit & 1) == 0 ? nullptr : &values(at)[bit];
 }
 
-float* TexelTiles::add(std::uint16_t map, int x, int y) {
+template <typename Value>
+Value* TilesOf<Value>::add(std::uint16_t map, int x, int y) {
   const TilePlace place = placeOf(map, x, y);
   if (slot(place) == kNone) {
     lastSlot_ = tiles_.size();
-    slots_.emplace(key(place), lastSlot_);
+    slots_.emplace(key(place), static_cast<std::uint32_t>(lastSlot_));
     tiles_.push_back({place, 0});
-    values_.resize(values_.size() + channels_ * kTileTexels, 0.f);
+    if (lastSlot_ % kChunk == 0) chunks_.emplace_back(kChunk * perTile());
   }
   const int bit = bitOf(x, y);
   tiles_[lastSlot_].mask |= std::uint64_t{1} << bit;
-  return texel(lastSlot_, bit);
+  return &values(lastSlot_)[bit];
 }
 
-void TexelTiles::encode(std::size_t slot, TileLight& light) const {
-  const std::span values =
-      std::span(values_).subspan(slot * channels_ * kTileTexels, channels_ * kTileTexels);
-  const float scale = *std::max_element(values.begin(), values.end()) / kLargest;
-  light.tiles.push_back({tiles_[slot].place, scale, tiles_[slot].mask});
-  for (const float value : values)
-    light.values.push_back(
-        scale > 0.f ? static_cast<std::uint16_t>(std::min(value / scale, kLargest) + 0.5f)
-                    : std::uint16_t{0});
+template <typename Value>
+std::vector<std::uint32_t> TilesOf<Value>::sorted() const {
+  std::vector<std::uint32_t> order(tiles_.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, {}, [&](std::uint32_t slot) { return tiles_[slot].place; });
+  return order;
 }
 
-TileLight TexelTiles::encoded() const {
-  std::vector<std::size_t> order(tiles_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return tiles_[a].place < tiles_[b].place; });
+template class TilesOf<float>;
+template class TilesOf<std::uint16_t>;
+
+TileLight encoded(const TexelTiles& texels) {
   TileLight light;
-  light.values.reserve(values_.size());
-  for (const std::size_t slot : order) encode(slot, light);
+  light.values.reserve(texels.tiles().size() * texels.channels() * kTileTexels);
+  for (const std::uint32_t slot : texels.sorted())
+    encode(texels.tiles()[slot], texels.values(slot), light);
   return light;
 }
 

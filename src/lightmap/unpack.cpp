@@ -1,7 +1,6 @@
 #include "lightmap/unpack.hpp"
 
 #include <algorithm>
-#include <bit>
 
 #include "lightmap/patch_triangle.hpp"
 
@@ -50,14 +49,12 @@ class Leaves {
 };
 
 void replaceBy(const LightTile& tile, std::span<const std::uint16_t> values, TexelTiles& texels) {
-  for (std::uint64_t left = tile.mask; left != 0; left &= left - 1) {
-    const int bit = std::countr_zero(left);
-    float* texel = texels.add(tile.place.map, tile.place.x * kTileSide + bit % kTileSide,
-                              tile.place.y * kTileSide + bit / kTileSide);
+  forTexels(tile.place, tile.mask, [&](int x, int y, int bit) {
+    float* texel = texels.add(tile.place.map, x, y);
     for (std::size_t c = 0; c < texels.channels(); ++c)
       texel[c * kTileTexels] =
           tile.scale * static_cast<float>(values[c * kTileTexels + static_cast<std::size_t>(bit)]);
-  }
+  });
 }
 
 void replaceBy(const TileLight& light, TexelTiles& texels) {
@@ -84,7 +81,7 @@ TileLight unpacked(const Patch& patch) {
   if (patch.triangles.roots.empty()) return patch.tiles;
   TexelTiles texels = lightOfTriangles(patch);
   replaceBy(patch.tiles, texels);
-  return texels.encoded();
+  return encoded(texels);
 }
 
 }  // namespace lucerna::lightmap

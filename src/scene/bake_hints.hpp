@@ -28,7 +28,7 @@ struct BakeHints {
   bool areaLights = true;  // whether surfaces that emit light others
   // How they do; absent: by the radiance that they show.
   std::optional<AreaLightRule> area;
-  // By how much a patch may differ from the light it stands for: brightness of a white surface.
+  // By how much a patch may be off its light: brightness of a white surface before exposure.
   std::optional<float> patchTolerance;
   std::optional<int> mapSize;  // texels along a side of a map, 16 to 16384
   bool operator==(const BakeHints&) const = default;

@@ -173,7 +173,7 @@ class BakeTest(unittest.TestCase):
         while process.poll() is None and not reached() and time.monotonic() < deadline:
             time.sleep(0.0005)
         process.send_signal(sign)
-        process.communicate(timeout=120)
+        self.said = process.communicate(timeout=120)[1]
         return process.returncode
 
     def logged(self, folder, count):
@@ -201,6 +201,10 @@ class BakeTest(unittest.TestCase):
             return self.logged(folder, chance.randrange(1, 12 << 20))
         return self.written(folder, chance.randint(1, 7))
 
+    def resume(self, folder):
+        """What goes on with an unfinished bake, and replaces a finished one."""
+        return ["--resume"] if (self.folder / folder / "work" / "bake.json").exists() else []
+
     def test_what_is_killed_goes_on(self):
         seed = int(os.environ.get("LUCERNA_KILL_SEED", random.randrange(1 << 30)))
         print(f"LUCERNA_KILL_SEED={seed}", end=" ", file=sys.stderr, flush=True)
@@ -208,13 +212,18 @@ class BakeTest(unittest.TestCase):
         start = time.monotonic()
         plain = self.whole("plain", *LONG)
         seconds = time.monotonic() - start
+        self.whole("older", "--density", "150", "--size", "128", "--preset", "preview", "--encode", "png")
+        self.assertGreater(len(self.manifest("older")["maps"]), 2 * len(self.manifest("plain")["maps"]))
         wanted, kills = 20, 0
         for number in range(wanted):
             folder = f"k{number}"
+            if number % 2:
+                shutil.copytree(self.folder / "older", self.folder / folder)
             for _ in range(4):  # some are over before their moment comes
                 reached = self.random_moment(chance, folder, seconds)
-                kills += self.end(folder, signal.SIGKILL, reached, *LONG, "--resume") == -signal.SIGKILL
-            self.ok(self.bake(folder, *LONG, "--resume"))
+                flags = [*LONG, *self.resume(folder)]
+                kills += self.end(folder, signal.SIGKILL, reached, *flags) == -signal.SIGKILL
+            self.ok(self.bake(folder, *LONG, *self.resume(folder)))
             self.assertEqual(self.hashes(folder), plain, f"seed {seed}, {folder}")
             shutil.rmtree(self.folder / folder)
             if kills >= wanted:
@@ -245,6 +254,8 @@ class BakeTest(unittest.TestCase):
     def test_interrupt_keeps_what_is_done(self):
         plain = self.whole("plain", *LONG)
         self.assertEqual(self.end("i", signal.SIGINT, self.logged("i", 1 << 16), *LONG), 130)
+        self.assertIn("error: cancelled; what is lit is kept in 'i': the same command with --resume goes on\n",
+                      self.said)
         self.assertFalse((self.folder / "i" / "manifest.json").exists())
         self.fails(2, self.bake("i", *LONG), "--resume")
         document = json.loads(self.ok(self.bake("i", *LONG, "--resume", "--json")).stdout)
@@ -267,6 +278,8 @@ class BakeTest(unittest.TestCase):
             self.ok(self.bake("m", *LONG, "--shard", f"{shard}/2"))
         merge = ["lightmap", "merge", "m"]
         check("m", self.end_run(merge, signal.SIGINT, self.written("m", 1)))
+        self.assertIn("error: cancelled; what the shards have lit is kept in 'm': the same command merges it\n",
+                      self.said)
         layout = self.folder / "m" / "layout.bin"
         layout.unlink()
         check("m", self.end_run(merge, signal.SIGINT, layout.exists))
@@ -280,15 +293,24 @@ class BakeTest(unittest.TestCase):
         self.ok(self.bake("l", *SMALL, "--shard", "2/2"))
         self.ok(self.lucerna("lightmap", "merge", "l"))
         self.assertEqual(self.hashes("l"), plain)
-        # Of a bake with more maps, killed before its manifest: with an older one there, and alone.
-        (self.folder / "l" / "map-009.exr").write_bytes(b"of another")
-        self.ok(self.bake("l", *SMALL))
-        self.assertEqual(self.hashes("l"), plain)
-        os.makedirs(self.folder / "k")
-        (self.folder / "k" / "layout.bin").write_bytes(b"half")
-        (self.folder / "k" / "map-000.exr").write_bytes(b"half")
-        (self.folder / "k" / "patch-009.bin").write_bytes(b"half")
-        self.ok(self.bake("k", *SMALL))
+        # Of a bake with more maps, killed before its manifest: over an older one, and alone; its work removed, as
+        # the messages say.
+        many = ["--density", "800", "--size", "128", "--preset", "preview", "--encode", "bc6h"]
+        for folder in ("l", "k"):
+            self.assertEqual(self.end(folder, signal.SIGKILL, self.written(folder, 30), *many), -signal.SIGKILL)
+            self.fails(2, self.bake(folder, *SMALL), "remove 'DIR/work'".replace("DIR", folder))
+            shutil.rmtree(self.folder / folder / "work")
+            self.assertGreater(len(self.hashes(folder)), len(plain))
+            self.ok(self.bake(folder, *SMALL))
+            self.assertEqual(self.hashes(folder), plain)
+        # Killed after the manifest, before all is cleared: as the same files would be then.
+        names = ["map-009.exr", "tex-777.png"]
+        (self.folder / "k" / "unfinished.json").write_text(json.dumps({"lucerna": "unfinished/1", "files": names[:1]}))
+        for name in names:
+            (self.folder / "k" / name).write_bytes(b"")
+        self.fails(2, self.bake("k", *SMALL, "--resume"), "tex-777.png", "none of a lightmap")
+        (self.folder / "k" / "tex-777.png").unlink()
+        self.ok(self.bake("k", *SMALL, "--resume"))
         self.assertEqual(self.hashes("k"), plain)
 
     def test_finished_is_finished(self):
@@ -303,6 +325,51 @@ class BakeTest(unittest.TestCase):
         self.assertIn("map-000.exr: is damaged", self.ok(self.bake("f", *SMALL, "--resume")).stderr)
         self.assertEqual(self.hashes("f"), plain)
 
+    def test_copies_are_added_to_a_finished_bake(self):
+        plain = self.whole("plain", *SMALL, "--encode", "rgb9e5,bc6h,png")
+        self.whole("d", *SMALL)
+        master = (self.folder / "d" / "map-000.exr").stat().st_mtime_ns
+        run = self.ok(self.bake("d", *SMALL, "--encode", "bc6h", "--resume", "--json"))
+        self.assertIn("copies of 5 maps", run.stderr)
+        self.assertNotIn("bake", json.loads(run.stdout))
+        self.assertEqual(self.hashes("d"), self.whole("bc6h", *SMALL, "--encode", "bc6h"))
+        # One that is there is not made again; one too many is another bake.
+        copy = (self.folder / "d" / "map-000.bc6h.ktx2").stat().st_mtime_ns
+        self.ok(self.bake("d", *SMALL, "--encode", "png,rgb9e5,bc6h", "--resume"))
+        self.assertEqual(self.hashes("d"), plain)
+        self.assertEqual((self.folder / "d" / "map-000.exr").stat().st_mtime_ns, master)
+        self.assertEqual((self.folder / "d" / "map-000.bc6h.ktx2").stat().st_mtime_ns, copy)
+        for encodings in ([], ["--encode", "png"]):
+            self.fails(2, self.bake("d", *SMALL, *encodings, "--resume"), "other settings")
+        self.fails(2, self.bake("d", *SMALL, "--padding", 3, "--encode", "png", "--resume"), "other settings")
+        self.assertEqual(self.hashes("d"), plain)
+        # A master that is damaged: all is baked again. A file of another's is in the way.
+        self.whole("d", *SMALL)
+        (self.folder / "d" / "map-001.exr").write_bytes(b"")
+        flags = [*SMALL, "--encode", "rgb9e5,bc6h,png", "--resume"]
+        self.assertIn("this bakes it again", self.ok(self.bake("d", *flags)).stderr)
+        self.assertEqual(self.hashes("d"), plain)
+        before = self.whole("d", *SMALL)
+        (self.folder / "d" / "map-000.png").write_text("mine")
+        self.fails(2, self.bake("d", *flags), "'map-000.png'")
+        (self.folder / "d" / "map-000.png").unlink()
+        self.assertEqual(self.hashes("d"), before)
+
+    def test_adding_copies_can_be_killed(self):
+        large = ["--density", "800", "--size", "256", "--preset", "preview"]
+        flags = [*large, "--encode", "bc6h"]
+        plain, old = self.whole("plain", *flags), self.whole("d", *large)
+        copies = lambda: len(list((self.folder / "d").glob("map-*.bc6h.ktx2"))) > 2
+        self.assertEqual(self.end("d", signal.SIGKILL, copies, *flags, "--resume"), -signal.SIGKILL)
+        self.assertFalse((self.folder / "d" / "work").exists())
+        self.ok(self.lucerna("lightmap", "inspect", "d"))
+        self.assertIn("nothing is left to do", self.ok(self.bake("d", *large, "--resume")).stderr)
+        self.assertEqual(self.hashes("d"), old)
+        self.assertEqual(self.end("d", signal.SIGINT, copies, *flags, "--resume"), 130)
+        self.ok(self.lucerna("lightmap", "inspect", "d"))
+        self.ok(self.bake("d", *flags, "--resume"))
+        self.assertEqual(self.hashes("d"), plain)
+
     def test_a_new_bake_replaces_all_of_an_old_one(self):
         self.whole("r", "--density", "80", "--size", "64", "--preset", "preview")
         self.assertGreater(len(self.manifest("r")["maps"]), 1)
@@ -313,7 +380,9 @@ class BakeTest(unittest.TestCase):
     def test_other_settings_are_named(self):
         self.ok(self.bake("o", *SMALL, "--shard", "1/2"))
         self.fails(2, self.bake("o", "--density", "41", *SMALL[2:], "--shard", "2/2"),
-                   "density is 40 there, 41 here", "remove 'o/work'")
+                   "--density is 40 there, 41 here", "remove 'o/work'")
+        self.fails(2, self.bake("o", *SMALL[:-1], "standard", "--shard", "2/2"),
+                   "other settings: --preset is preview there, standard here; give the same")
         self.fails(2, self.bake("o", *SMALL, "--reach", 3, "--shard", "2/2"), "reach is none there, 3 here")
         self.fails(2, self.bake("o", *SMALL, "--shard", "2/2", scene="builtin:cornell?boxes=0"), "another scene",
                    "'builtin:cornell' there", "'builtin:cornell?boxes=0' here")
@@ -433,13 +502,57 @@ class BakeTest(unittest.TestCase):
         del before["manifest.json"]
         self.assertEqual(self.hashes("web"), before)
         # What else was put into a lightmap's folder stays.
-        self.ok(self.bake("ours", *SMALL))
-        names = {"map-1.png", "map-1000.txt", "tex-0.png", "notes.txt"}
+        plain = self.whole("ours", *SMALL)
+        names = {"map-1.png", "map-1000.txt", "tex-0.png", "notes.txt", "maps/map-001.exr"}
+        os.makedirs(self.folder / "ours" / "maps")
         for name in names:
-            (self.folder / "ours" / name).write_text("")
-        (self.folder / "ours" / "map-1000.png").write_text("of an older one")
+            (self.folder / "ours" / name).write_text(name)
         self.ok(self.bake("ours", *SMALL))
-        self.assertEqual({path.name for path in (self.folder / "ours").iterdir()} & (names | {"map-1000.png"}), names)
+        self.ok(self.bake("ours", *SMALL, "--resume"))
+        kept = self.hashes("ours")
+        self.assertEqual({name: kept[name] for name in plain}, plain)
+        self.assertEqual(set(kept) - set(plain), names)
+        # What is named like a lightmap's is refused before anything is done.
+        os.makedirs(self.folder / "ours" / "work")
+        for name in ("map-777.exr", "tex-777.png", "work/diary.txt", "unfinished.json"):
+            (self.folder / "ours" / name).write_text(name)
+            before = self.hashes("ours")
+            for flags in ([], ["--resume"], ["--shard", "1/2"]):
+                self.fails(2, self.bake("ours", *SMALL, *flags, scene="no scene is read"), "none of a lightmap",
+                           f"'{name}'")
+            self.assertEqual(self.hashes("ours"), before)
+            (self.folder / "ours" / name).unlink()
+
+    def test_what_is_put_there_while_it_bakes_is_left_alone(self):
+        for shard in (1, 2):
+            self.ok(self.bake("d", *SMALL, "--shard", f"{shard}/2"))
+        for name in ("scene.bin", "work/diary.txt"):
+            (self.folder / "d" / name).write_text(name)
+            self.fails(2, self.lucerna("lightmap", "merge", "d"), "none of a lightmap", f"'{name}'")
+            self.assertEqual((self.folder / "d" / name).read_text(), name)
+            (self.folder / "d" / name).unlink()
+        (self.folder / "d" / "notes.txt").write_text("")
+        self.ok(self.lucerna("lightmap", "merge", "d"))
+        self.assertEqual(set(self.hashes("d")), set(self.whole("plain", *SMALL)) | {"notes.txt"})
+
+    def test_a_damaged_manifest_is_refused(self):
+        self.whole("d", *SMALL)
+        path = self.folder / "d" / "manifest.json"
+        path.write_text(path.read_text().replace("map-000", "map-0O0"))
+        before = self.hashes("d")
+        for flags in ([], ["--resume"]):
+            self.fails(2, self.bake("d", *SMALL, *flags), "d/manifest.json", "damaged", "another folder")
+        self.assertEqual(self.hashes("d"), before)
+
+    def test_a_finished_bake_leaves_an_unfinished_one_of_other_settings(self):
+        plain = self.whole("d", *SMALL)
+        other = ["--density", "41", *SMALL[2:]]
+        self.ok(self.bake("d", *other, "--shard", "1/2"))
+        self.assertIn("nothing is left to do", self.ok(self.bake("d", *SMALL, "--resume")).stderr)
+        self.assertEqual(set(self.hashes("d")), {*plain, "work/bake.json", "work/shard-1-of-2.log"})
+        self.ok(self.bake("d", *other, "--shard", "2/2"))
+        self.ok(self.lucerna("lightmap", "merge", "d"))
+        self.assertEqual(self.hashes("d"), self.whole("plain", *other))
 
     def limited(self, bytes_):
         return {"preexec_fn": lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (bytes_, bytes_))}
@@ -463,7 +576,7 @@ class BakeTest(unittest.TestCase):
     # Scenes and settings
 
     def test_unknown_groups_are_named_and_nothing_is_made(self):
-        self.fails(2, self.bake("g", *SMALL, "--lights", "kitchen"), "no light group 'kitchen'", "always-on")
+        self.fails(2, self.bake("g", *SMALL, "--lights", "always-on, kitchen"), "no light group 'kitchen'", "always-on")
         self.assertFalse((self.folder / "g").exists())
 
     def test_no_lights_is_a_warning(self):
@@ -496,7 +609,7 @@ class BakeTest(unittest.TestCase):
         self.assertLess(coarse["patches"][0]["bytes"], fine["patches"][0]["bytes"])
         self.ok(self.bake("c", *flags, "--shard", "1/2", scene=hinted))
         self.fails(2, self.bake("c", *flags, "--shard", "2/2", "--patch-tolerance", "0.1", scene=hinted),
-                   "patchTolerance is 0.25 there, 0.1 here")
+                   "--patch-tolerance is 0.25 there, 0.1 here")
         self.ok(self.bake("c", *flags, "--shard", "2/2", scene=hinted))
         self.ok(self.lucerna("lightmap", "merge", "c"))
         self.assertEqual(self.hashes("c"), self.hashes("a"))
@@ -508,14 +621,23 @@ class BakeTest(unittest.TestCase):
         self.fails(2, self.bake("f", *flags, scene=scene("dark.json", maps=False, patches=False)), "nothing to bake")
 
     def test_too_many_maps_say_what_fits(self):
-        flags = ["--size", "64", "--most-maps", "2", "--preset", "preview"]
-        run = self.bake("many", "--density", "200", *flags)
-        self.assertEqual(run.returncode, 3, run.stderr)
-        fits = re.search(r"--density ([\d.]+) fits", run.stderr)
-        self.assertTrue(fits, run.stderr)
-        self.assertFalse((self.folder / "many").exists())
-        self.ok(self.bake("many", "--density", fits[1], *flags))
-        self.assertEqual(self.bake("more", "--density", 1.25 * float(fits[1]), *flags).returncode, 3)
+        for most, density in ((2, 200), (2, 20000), (1, 77), (9, 93)):
+            flags = ["--size", "64", "--most-maps", most, "--preset", "preview"]
+            run = self.bake("many", "--density", density, *flags)
+            self.assertEqual(run.returncode, 2, run.stderr)
+            said = re.search(rf"error: \d+ charts need about (\d+) maps of 64 x 64 texels, and --most-maps allows "
+                             rf"{most}; wanted --density ([\d.]+), which fits, or larger maps \(--size\) or more of "
+                             r"them \(--most-maps\)\n", run.stderr)
+            self.assertTrue(said, run.stderr)
+            self.assertGreater(int(said[1]), most)
+            self.assertFalse((self.folder / "many").exists())
+            self.ok(self.bake("many", "--density", said[2], *flags, "--resume"))
+            shutil.rmtree(self.folder / "many")
+            self.assertEqual(self.bake("more", "--density", 1.25 * float(said[2]), *flags).returncode, 2)
+        # No density makes the gap between twelve charts small enough.
+        run = self.bake("none", "--size", 16, "--padding", 16, "--most-maps", 1)
+        self.assertEqual(run.returncode, 2, run.stderr)
+        self.assertIn("and --most-maps allows 1; wanted larger maps (--size) or more of them", run.stderr)
 
     # Looking
 
@@ -535,6 +657,17 @@ class BakeTest(unittest.TestCase):
         for word in ("charts", "texels", "maps", "estimate", "memory"):
             self.assertIn(word, text)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_texels_are_those_that_charts_cover(self):
+        """The same in a dry run, while baking and in the manifest; the box hides none."""
+        scene = "builtin:cornell?boxes=0"
+        covered = json.loads(self.ok(self.bake("t", *SMALL, "--dry-run", "--json", scene=scene)).stdout)["texels"]
+        text = self.ok(self.bake("t", *SMALL, "--dry-run", scene=scene)).stdout
+        self.assertIn(f"texels     {covered} that they cover\n", text)
+        run = self.ok(self.bake("t", *SMALL, "--json", scene=scene))
+        self.assertIn(f"which cover {covered} texels of ", run.stderr)
+        self.assertEqual(json.loads(run.stdout)["texels"], covered)
+        self.assertEqual(sum(each["texels"] for each in self.manifest("t")["maps"]), covered)
 
     def test_odd_triangles_are_left_out(self):
         """No numbers, no area, and far too large: the rest is lit as without them, in shadow too."""

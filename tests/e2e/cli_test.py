@@ -112,6 +112,21 @@ class CliTest(unittest.TestCase):
         self.assert_fails(2, "--output is required", arguments=["render", ATRIUM])
         self.assert_fails(2, "'5'", "not a camera", arguments=["render", ATRIUM, "-o", "a.png", "--camera", "5"])
 
+    def test_groups_that_are_off_may_have_spaces_around(self):
+        self.write("floor.obj", "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+        lamp = {"kind": "point", "intensity": 9, "position": [0, 1, 0]}
+        self.write("lamps.json", json.dumps({"lucerna": "scene/1", "include": [{"file": "floor.obj"}],
+                                             "lights": [lamp, {**lamp, "group": "desk"}, {**lamp, "group": "shop"}]}))
+        self.assert_ok(self.lucerna("bake", "lamps.json", "-o", "b", "--size", "64", "--lights", "desk, shop ,always-on"))
+        render = ["render", "lamps.json", "--lightmap", "b", *SMALL]
+        for name, groups in (("a.png", "desk,shop"), ("b.png", "desk, shop "), ("c.png", "desk")):
+            self.assert_ok(self.lucerna(*render, "-o", name, "--lights-off", groups))
+        a, b, c = ((self.folder / name).read_bytes() for name in ("a.png", "b.png", "c.png"))
+        self.assertEqual(a, b)
+        self.assertNotEqual(a, c)
+        self.assert_fails(2, "always on cannot be switched off", "wanted one of desk, shop",
+                          arguments=[*render, "-o", "d.png", "--lights-off", "always-on"])
+
     def test_bad_values_of_other_subcommands(self):
         def fails(*words, arguments):
             self.assert_fails(2, *words, arguments=arguments)

@@ -1,0 +1,23 @@
+// Copies of maps in the encodings that were asked for, beside their EXR masters.
+#pragma once
+
+#include <filesystem>
+#include <span>
+
+#include "bake/plan.hpp"
+#include "image/image.hpp"
+#include "lightmap/manifest.hpp"
+
+namespace lucerna::bake {
+
+// map: as BakedLight::maps; white: irradianceOfWhite(), for PNG.
+Result<lightmap::FileEntry> writeCopy(const Image& map, std::size_t index, Encoding encoding,
+                                      const std::filesystem::path& folder, float white);
+
+// Where DIR holds this very bake, finished, but for copies that it has not: writes them from the
+// masters, and the manifest, all as a bake with these settings does. Gives of how many maps; 0: it
+// is another bake, or nothing is missing. ErrorKind::Input: a file is damaged. ErrorKind::Usage:
+// others' files are in the way. ErrorKind::Cancelled after Ctrl-C: the lightmap is as it was.
+Result<std::size_t> addCopies(const Plan& plan, const std::filesystem::path& folder);
+
+}  // namespace lucerna::bake
