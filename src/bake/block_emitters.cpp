@@ -160,12 +160,12 @@ void BlockLighter::lightByCell(const Samples& samples, const Tile& tile, const E
   const vec3 middle = cell.emission.positionW, u = cell.alongU, v = cell.alongV;
   Emission part = cell.emission;
   part.intensity /= static_cast<float>(count);
-  // Of texels of one place: no two in a row or a column of a finer grid, see samples.cpp.
+  // Few points: no two in a row or a column of a finer grid, see samples.cpp.
   const auto pointAt = [&](int i) {
     const vec2 square(i % split.x, i / split.x);
     const vec2 inSquare =
         (vec2(square.y, vec2(split).x - square.x - 1.f) + 0.5f) / vec2(split.y, split.x);
-    const vec2 at = (square + (samples.perTexel == 1 ? inSquare : vec2(0.5f))) / vec2(split) - 0.5f;
+    const vec2 at = (square + (splits(samples) ? inSquare : vec2(0.5f))) / vec2(split) - 0.5f;
     return middle + u * at.x + v * at.y;
   };
   const float area = glm::length(glm::cross(u, v));
@@ -311,7 +311,7 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
       lightByNode(samples, tile, node, at, most, distance);
   };
   constexpr float kAny = std::numeric_limits<float>::infinity();
-  if (samples.perTexel > 1 || settings_.mostShare >= 1.f) {
+  if (!splits(samples)) {
     cut(samples, tile, found_, kAny,
         [&](std::uint32_t at, float distance) { light(at, kAny, distance); });
   } else {

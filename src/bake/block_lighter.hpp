@@ -59,6 +59,10 @@ class BlockLighter final : public Lighter {
                    std::uint32_t seed, float mostOfAll, float distance);
   void lightByHalves(const Samples& samples, const Tile& tile, const EmitterNode& cell,
                      std::uint32_t seed, float most, float distance);
+  // Whether nodes that give much are cut: places of texels with several see other points anyway.
+  bool splits(const Samples& samples) const {
+    return samples.perTexel == 1 && settings_.mostShare < 1.f;
+  }
   float mostOf(float most, float distance) const;
   float givesTo(const Samples& samples, const Tile& tile, const EmitterNode& node) const;
   template <typename What>

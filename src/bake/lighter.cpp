@@ -54,7 +54,8 @@ void Lighter::findUnevenPlaces(const Samples& samples, std::uint32_t light,
   forTexels(samples, [&](std::size_t first, std::size_t end) {
     const auto count = static_cast<float>(end - first);
     vec3 mean(0.f);
-    for (std::size_t i = first; i < end; ++i) mean += sums_[i] / count;
+    for (std::size_t i = first; i < end; ++i) mean += sums_[i];
+    mean /= count;  // what addMeans() adds
     float squares = 0.f;
     for (std::size_t i = first; i < end; ++i) {
       const float off = brightness(sums_[i]) - brightness(mean);
