@@ -21,15 +21,19 @@ float stored(const Image& image, std::size_t index) {
   return 0.f;
 }
 
-// A table for the 8-bit pictures that most are.
-float linear(const Image& image, std::size_t index) {
+// Of the 8-bit pictures that most are.
+const std::array<float, 256>& linearOf8Bits() {
   static const auto table = [] {
     std::array<float, 256> values{};
     for (std::size_t i = 0; i < values.size(); ++i)
       values[i] = linearFromSrgb(static_cast<float>(i) / 255.f);
     return values;
   }();
-  if (image.type() == ComponentType::U8) return table[image.as<std::uint8_t>()[index]];
+  return table;
+}
+
+float linear(const Image& image, std::size_t index) {
+  if (image.type() == ComponentType::U8) return linearOf8Bits()[image.as<std::uint8_t>()[index]];
   const float value = stored(image, index);
   return image.type() == ComponentType::U16 ? linearFromSrgb(value) : value;
 }
@@ -99,7 +103,29 @@ vec4 sampleTexels(const Image& image, vec2 uv, scene::Wrap wrapS, scene::Wrap wr
 }  // namespace
 
 vec4 colorAt(const scene::Texture& texture, vec2 uv) {
-  return sampleTexels(*texture.image, uv, texture.wrapS, texture.wrapT, texture.nearest, true);
+  const Image& image = *texture.image;
+  const auto channels = static_cast<std::size_t>(image.channels());
+  const auto at = [&](auto read) {
+    return sample(image, uv, texture.wrapS, texture.wrapT, texture.nearest, read);
+  };
+  // As texel(), in less time.
+  if (image.type() == ComponentType::U8 && channels >= 3) {
+    const std::uint8_t* all = image.as<std::uint8_t>().data();
+    const std::array<float, 256>& table = linearOf8Bits();
+    return at([&](ivec2 p) {
+      const std::uint8_t* c = all + firstOf(image, p);
+      return vec4(table[c[0]], table[c[1]], table[c[2]],
+                  channels == 4 ? static_cast<float>(c[3]) / 255.f : 1.f);
+    });
+  }
+  if (image.type() == ComponentType::F32 && channels >= 3) {
+    const float* all = image.as<float>().data();
+    return at([&](ivec2 p) {
+      const float* c = all + firstOf(image, p);
+      return vec4(c[0], c[1], c[2], channels == 4 ? c[3] : 1.f);
+    });
+  }
+  return at([&](ivec2 p) { return texel(image, p, true); });
 }
 
 vec4 dataAt(const scene::Texture& texture, vec2 uv) {
