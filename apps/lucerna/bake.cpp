@@ -31,6 +31,7 @@ struct Options {
   bake::Shard shard;
   bool resume = false, dryRun = false;
   int threads = 0;
+  std::string left = "nothing was written";  // by this run, if Ctrl-C ends it now
 };
 
 // "2/5"
@@ -62,16 +63,19 @@ Result<int> dryRun(const bake::Plan& plan, bool json) {
   return 0;
 }
 
-// Removes what a finished bake has left of its work, not what one of other settings goes on with.
+// Removes what a finished bake has left of its work, not what one of other settings goes on with;
+// nothing while others bake there, or where nothing can be removed.
 void clearWork(const Options& options, const bake::Plan& plan) {
-  if (bake::isUnderWay(options.folder)) return;
-  const auto order = bake::readOrder(options.folder);
-  if (!order || order->plan == plan.hash) bake::removeWork(options.folder);
+  const auto lock = bake::FolderLock::take(options.folder, bake::FolderLock::Use::Write);
+  if (lock && bake::isOwnWork(plan, options.folder)) bake::removeWork(options.folder);
 }
 
 // What a finished bake lacks of the copies. False: it is damaged.
-Result<bool> addCopies(const Options& options, const bake::Plan& plan) {
-  if (bake::isUnderWay(options.folder)) return true;
+Result<bool> addCopies(Options& options, const bake::Plan& plan) {
+  options.left = fmt::format(
+      "the lightmap in '{}' is as it was, and some copies lie beside it: the same command writes "
+      "them all",
+      options.folder);
   const Result<std::size_t> maps = bake::addCopies(plan, options.folder);
   if (!maps && maps.error().kind != ErrorKind::Input) return maps.error();
   if (!maps)
@@ -83,7 +87,7 @@ Result<bool> addCopies(const Options& options, const bake::Plan& plan) {
 }
 
 // With --resume: whether nothing is left to do.
-Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
+Result<bool> isFinished(Options& options, const bake::Plan& plan) {
   if (!options.resume) return false;
   LUCERNA_TRY(sound, addCopies(options, plan));
   if (!sound) return false;
@@ -98,15 +102,26 @@ Result<bool> isFinished(const Options& options, const bake::Plan& plan) {
   return false;
 }
 
-Result<bake::BakeReport> lightAndFinish(const Options& options, const bake::Plan& plan,
-                                        Clock::time_point start) {
-  LUCERNA_TRY_VOID(bake::prepareFolder(options.folder, options.resume, options.shard));
+Status light(Options& options, const bake::Plan& plan, bake::BakeReport& report) {
+  LUCERNA_TRY(lock, bake::prepareFolder(options.folder, options.resume, options.shard));
   LUCERNA_TRY_VOID(bake::keepOrder(options.folder, bake::orderOf(plan, options.scene)));
+  options.left = fmt::format("what is lit is kept in '{}': the same command with --resume goes on",
+                             options.folder);
+  return bake::lightShard(plan, options.folder, options.shard, report);
+}
+
+Status finish(const Options& options, const bake::Plan& plan, bake::BakeReport& report) {
+  LUCERNA_TRY(lock, bake::FolderLock::take(options.folder, bake::FolderLock::Use::Write));
+  return bake::finish(plan, options.folder, report);
+}
+
+Result<bake::BakeReport> lightAndFinish(Options& options, const bake::Plan& plan,
+                                        Clock::time_point start) {
   bake::BakeReport report;
   report.seconds.prepare = secondsSince(start);
-  LUCERNA_TRY_VOID(bake::lightShard(plan, options.folder, options.shard, report));
+  LUCERNA_TRY_VOID(light(options, plan, report));
   sayReport(report);
-  if (options.shard.count == 1) LUCERNA_TRY_VOID(bake::finish(plan, options.folder, report));
+  if (options.shard.count == 1) LUCERNA_TRY_VOID(finish(options, plan, report));
   for (const std::string& warning : report.warnings) log::warning("{}", warning);
   log::info("{} in {}",
             options.shard.count == 1
@@ -158,12 +173,7 @@ Result<int> bakeScene(Options& options, bool json) {
 Result<int> bakeOrCancel(Options& options, bool json) {
   auto result = bakeScene(options, json);
   if (result || result.error().kind != ErrorKind::Cancelled) return result;
-  std::error_code none;
-  if (options.dryRun || !std::filesystem::exists(bake::orderPath(options.folder), none))
-    return error(ErrorKind::Cancelled, "cancelled; nothing was written");
-  return error(ErrorKind::Cancelled,
-               "cancelled; what is lit is kept in '{}': the same command with --resume goes on",
-               options.folder);
+  return error(ErrorKind::Cancelled, "cancelled; {}", options.left);
 }
 
 void addChartFlags(CLI::App& command, bake::BakeSettings& settings, bake::Asked& asked) {

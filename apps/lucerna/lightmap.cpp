@@ -23,6 +23,7 @@ namespace lucerna::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using bake::FolderLock;
 
 struct Options {
   std::string folder, scene, output;
@@ -48,10 +49,13 @@ Result<int> merge(const Options& options, bool json) {
   LUCERNA_TRY(merged, isMerged(options.folder));
   Json document{{"folder", options.folder}, {"finished", true}};
   if (merged) {
-    if (!bake::isUnderWay(options.folder)) bake::removeWork(options.folder);
+    // Another process may be at that just now.
+    if (const auto lock = FolderLock::take(options.folder, FolderLock::Use::Write); lock)
+      bake::removeWork(options.folder);
     log::info("'{}' is finished; nothing is left to merge", options.folder);
   } else {
     LUCERNA_TRY(order, bake::readOrder(options.folder));
+    LUCERNA_TRY(lock, FolderLock::take(options.folder, FolderLock::Use::Write));
     const std::string& path = options.scene.empty() ? order.scene : options.scene;
     LUCERNA_TRY_VOID(bake::checkIsApart(options.folder, path));
     LUCERNA_TRY(scene, scene::loadScene(path));

@@ -89,14 +89,14 @@ Status checkFolder(const fs::path& folder, bool resume, const Shard& shard) {
   return checkWritable(folder);
 }
 
-Status prepareFolder(const fs::path& folder, bool resume, const Shard& shard) {
+Result<FolderLock> prepareFolder(const fs::path& folder, bool resume, const Shard& shard) {
   LUCERNA_TRY_VOID(checkFolder(folder, resume, shard));
   std::error_code failed;
   fs::create_directories(folder / kWorkFolder, failed);
   if (failed)
     return error(ErrorKind::Failed, "-o: '{}' cannot be made ({})", (folder / kWorkFolder).string(),
                  failed.message());
-  return {};
+  return FolderLock::take(folder, FolderLock::Use::Light);
 }
 
 Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
@@ -120,8 +120,16 @@ Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
   return true;
 }
 
-bool isUnderWay(const fs::path& folder) {
-  return std::ranges::any_of(logsIn(folder), isBusy);
+bool isOwnWork(const Plan& plan, const fs::path& folder) {
+  std::error_code none;
+  if (fs::exists(orderPath(folder), none)) {
+    const auto order = readOrder(folder);
+    return order && order->plan == plan.hash;
+  }
+  // One that was killed while it removed them has left logs alone.
+  return std::ranges::all_of(logsIn(folder), [&](const fs::path& log) {
+    return static_cast<bool>(readUnitLog(log, logHash(plan), plan.units.size(), {}));
+  });
 }
 
 Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 
+#include "bake/folder_lock.hpp"
 #include "bake/plan.hpp"
 #include "bake/seams.hpp"
 #include "bake/shards.hpp"
@@ -36,23 +37,25 @@ Status checkIsApart(const std::filesystem::path& folder, const std::string& scen
 // `resume` is not set; DIR is a file, or holds what is in the way (checkNoOthers()).
 // ErrorKind::Failed: it cannot be written.
 Status checkFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
-// The same, and makes DIR and DIR/work.
-Status prepareFolder(const std::filesystem::path& folder, bool resume, const Shard& shard);
+// The same, and makes DIR and DIR/work. Gives the lock under which a shard lights.
+Result<FolderLock> prepareFolder(const std::filesystem::path& folder, bool resume,
+                                 const Shard& shard);
 
 // Whether DIR holds this very bake, finished: each of its files is read. ErrorKind::Input: it does,
 // but a file is damaged; the message names it. ErrorKind::Usage: it holds another finished bake and
 // no unfinished one.
 Result<bool> isFinished(const Plan& plan, const std::filesystem::path& folder);
 
-// Whether another process bakes into DIR at the moment.
-bool isUnderWay(const std::filesystem::path& folder);
+// Whether what DIR/work holds is of this very bake, if it holds anything.
+bool isOwnWork(const Plan& plan, const std::filesystem::path& folder);
 
 // Lights the shard's units that no log has yet, and logs them. ErrorKind::Cancelled after Ctrl-C:
 // what is done is kept.
 Status lightShard(const Plan& plan, const std::filesystem::path& folder, const Shard& shard,
                   BakeReport& report);
 
-// Reads all logs in DIR/work and writes maps, layout and manifest; then DIR/work is removed.
+// Under a FolderLock that is for writing: reads all logs in DIR/work and writes maps, layout and
+// manifest; then DIR/work is removed.
 // ErrorKind::Cancelled after Ctrl-C: DIR/work is kept, and the manifest is not written.
 // ErrorKind::Failed: units are missing (it says of which shards, and which logs are damaged where).
 Status finish(const Plan& plan, const std::filesystem::path& folder, BakeReport& report);

@@ -5,6 +5,7 @@
 
 #include "bake/bake_order.hpp"
 #include "bake/cancelled.hpp"
+#include "bake/folder_lock.hpp"
 #include "bake/own_files.hpp"
 #include "bake/write_lightmap.hpp"
 #include "core/check.hpp"
@@ -92,6 +93,15 @@ Status completeMaps(const Plan& plan, const fs::path& folder, Manifest& manifest
   return {};
 }
 
+// The manifest of this very bake without copies that it should have, if DIR holds one.
+std::optional<Manifest> lackingCopies(const Plan& plan, const fs::path& folder) {
+  auto manifest = lightmap::readManifest(folder);
+  if (!manifest || manifest->sceneHash != lightmap::hashText16(plan.hash) ||
+      !lacksCopiesAlone(manifest->settings, plan.settings))
+    return {};
+  return std::move(*manifest);
+}
+
 }  // namespace
 
 Result<FileEntry> writeCopy(const Image& map, std::size_t index, Encoding encoding,
@@ -102,12 +112,10 @@ Result<FileEntry> writeCopy(const Image& map, std::size_t index, Encoding encodi
 }
 
 Result<std::size_t> addCopies(const Plan& plan, const fs::path& folder) {
-  std::error_code none;
-  if (!fs::exists(folder / kManifestFile, none)) return 0;
-  auto manifest = lightmap::readManifest(folder);
-  if (!manifest || manifest->sceneHash != lightmap::hashText16(plan.hash) ||
-      !lacksCopiesAlone(manifest->settings, plan.settings))
-    return 0;
+  if (!lackingCopies(plan, folder)) return 0;
+  LUCERNA_TRY(lock, FolderLock::take(folder, FolderLock::Use::Write));
+  std::optional<Manifest> manifest = lackingCopies(plan, folder);  // as nobody changes it any more
+  if (!manifest) return 0;
   LUCERNA_TRY_VOID(lightmap::checkEntries(folder, lightmap::filesOf(*manifest)));
   LUCERNA_TRY_VOID(claimFiles(plan, folder));
   LUCERNA_TRY_VOID(completeMaps(plan, folder, *manifest));

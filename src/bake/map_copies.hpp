@@ -17,7 +17,8 @@ Result<lightmap::FileEntry> writeCopy(const Image& map, std::size_t index, Encod
 // Where DIR holds this very bake, finished, but for copies that it has not: writes them from the
 // masters, and the manifest, all as a bake with these settings does. Gives of how many maps; 0: it
 // is another bake, or nothing is missing. ErrorKind::Input: a file is damaged. ErrorKind::Usage:
-// others' files are in the way. ErrorKind::Cancelled after Ctrl-C: the lightmap is as it was.
+// others' files are in the way. ErrorKind::Failed: another process bakes into DIR.
+// ErrorKind::Cancelled after Ctrl-C: the lightmap is as it was, some copies lie beside it.
 Result<std::size_t> addCopies(const Plan& plan, const std::filesystem::path& folder);
 
 }  // namespace lucerna::bake

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 
+#include "bake/folder_lock.hpp"
 #include "bake/shards.hpp"
 #include "bake/write_lightmap.hpp"
 #include "core/file.hpp"
@@ -53,13 +54,13 @@ bool isOrder(const std::string& name) {
   return name == orderPath({}).filename();
 }
 
-// bake.json, and the logs of shards.
+// bake.json, its lock, and the logs of shards.
 bool isWorkFile(const std::string& name) {
   std::string_view rest = name;
   const bool isLog = skip(rest, "shard-") && skipDigits(rest) > 0 && skip(rest, "-of-") &&
                      skipDigits(rest) > 0 && rest == ".log";
   const std::optional<std::string> target = targetOf(name);
-  return isLog || isOrder(name) || (target && isOrder(*target));
+  return isLog || isOrder(name) || name == kLockFile || (target && isOrder(*target));
 }
 
 bool isFile(const fs::path& path) {
@@ -80,11 +81,11 @@ std::vector<fs::path> filesIn(const fs::path& folder) {
   return files;
 }
 
-// Whether it says that it is a lightmap's; such a file begins so.
-bool isOurs(const fs::path& manifest) {
+// Whether a manifest that is damaged says that it is a lightmap's; such a file begins so.
+bool saysLightmap(const fs::path& manifest) {
   std::string start(64, '\0');
   std::ifstream(manifest, std::ios::binary).read(start.data(), std::ssize(start));
-  return start.find("\"lucerna\": \"lightmap/") != std::string::npos;
+  return start.find("\"lightmap/") != std::string::npos;
 }
 
 Result<Names> readList(const fs::path& path) {
@@ -124,13 +125,17 @@ Result<Claimed> claimedIn(const fs::path& folder) {
   if (isThere(orderPath(folder))) claimed.emplace();
   if (isThere(folder / kUnfinishedFile)) {
     auto listed = readList(folder / kUnfinishedFile);
-    if (!listed) return noneOfALightmap(folder, kUnfinishedFile, kWantedEmpty).error();
+    if (!listed)
+      return error(ErrorKind::Usage,
+                   "{}; only it says which files in '{}' a bake that was stopped has made: remove "
+                   "it and those that you do not need, or name another folder",
+                   listed.error().message, folder.string());
     claimed = std::move(*listed);
   }
   if (!isThere(folder / kManifestFile)) return claimed;
-  if (!isOurs(folder / kManifestFile))
-    return noneOfALightmap(folder, kManifestFile, kWantedEmpty).error();
   const auto manifest = lightmap::readManifest(folder);
+  if (!manifest && !saysLightmap(folder / kManifestFile))
+    return noneOfALightmap(folder, kManifestFile, kWantedEmpty).error();
   if (manifest) {
     if (!claimed) claimed.emplace();
     for (const std::string& name : namesOf(*manifest))
@@ -144,9 +149,10 @@ Result<Claimed> claimedIn(const fs::path& folder) {
   return claimed;
 }
 
+// What is gone by now was of a process beside this one.
 Status checkWork(const fs::path& folder) {
   for (const fs::path& path : filesIn(folder / kWorkFolder))
-    if (!isWorkFile(path.filename().string()) || !isFile(path))
+    if (!(isWorkFile(path.filename().string()) && isFile(path)) && isThere(path))
       return noneOfALightmap(folder, path.lexically_relative(folder).string(),
                              "that folder is for what a bake has not finished: move it elsewhere, "
                              "or name another folder");
@@ -158,8 +164,11 @@ Status checkOthersThan(const Claimed& claimed, const fs::path& folder) {
   for (const fs::path& path : filesIn(folder)) {
     const std::string name = path.filename().string();
     if (name == kWorkFolder || name == kUnfinishedFile || isTemporary(name)) continue;
+    const bool isOwn =
+        claimed && (!isLightmapFile(name) || (claimed->contains(name) && isFile(path)));
+    if (isOwn || !isThere(path)) continue;
     if (!claimed) return noneOfALightmap(folder, name, kWantedEmpty);
-    if (isLightmapFile(name) && !(claimed->contains(name) && isFile(path)))
+    if (isLightmapFile(name))
       return noneOfALightmap(folder, name,
                              "it is named like a lightmap's file, but no bake there has made it: "
                              "move it elsewhere, or name another folder");
@@ -226,7 +235,9 @@ void removeWork(const fs::path& folder) {
   // First what says that there is work to go on with.
   fs::remove(orderPath(folder), ignored);
   for (const fs::path& path : filesIn(folder / kWorkFolder))
-    if (isWorkFile(path.filename().string()) && isFile(path)) fs::remove(path, ignored);
+    if (const std::string name = path.filename().string();
+        isWorkFile(name) && name != kLockFile && isFile(path))
+      fs::remove(path, ignored);
   fs::remove(folder / kWorkFolder, ignored);  // only if it is empty
   for (const fs::path& path : filesIn(folder))
     if (isTemporary(path.filename().string()) && isFile(path)) fs::remove(path, ignored);

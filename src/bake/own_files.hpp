@@ -31,7 +31,8 @@ Status claimFiles(const Plan& plan, const std::filesystem::path& folder);
 void removeUnnamed(const std::filesystem::path& folder, const lightmap::Manifest& manifest);
 
 // The same of a DIR that is finished, and removes what bakes have left in DIR/work, that folder if
-// nothing else is in it, and half files of writers that were killed.
+// nothing else is in it, and half files of writers that were killed. The lock that the caller has
+// (bake/folder_lock.hpp) removes itself.
 void removeWork(const std::filesystem::path& folder);
 
 }  // namespace lucerna::bake

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <set>
+#include <thread>
 
 #include "bake/assemble.hpp"
 #include "bake/write_lightmap.hpp"
@@ -103,6 +105,63 @@ TEST_F(OwnFiles, OfADamagedManifestNothingIsKnown) {
   ASSERT_TRUE(claimFiles(planOf("builtin:cornell", 4.f), folder_.path()));
   put("manifest.json", text);
   EXPECT_EQ(fault(), "");
+}
+
+// As other tools write JSON.
+TEST_F(OwnFiles, AManifestIsKnownHoweverItIsSpaced) {
+  putManifest();
+  const auto manifest = nlohmann::ordered_json::parse(*readText(folder_ / "manifest.json"));
+  for (const int indent : {-1, 0, 8}) {
+    put("manifest.json", manifest.dump(indent));
+    EXPECT_EQ(fault(), "");
+  }
+  put("manifest.json", manifest.dump() + "]");
+  EXPECT_THAT(fault(), AllOf(HasSubstr("damaged"), HasSubstr("another folder")));
+}
+
+TEST_F(OwnFiles, OfADamagedListTheReaderSaysWhatIsWrong) {
+  putManifest();
+  for (const auto& [text, found] :
+       {std::pair("", "unfinished.json"), std::pair("{\"lucerna\": \"unfinished/1\"}", "files")}) {
+    put("unfinished.json", text);
+    EXPECT_THAT(fault(),
+                AllOf(HasSubstr("unfinished.json:"), HasSubstr(found), HasSubstr("remove it"),
+                      HasSubstr("another folder"), testing::Not(HasSubstr("none of a lightmap"))));
+  }
+}
+
+// Shards that start together write the order beside each other, and who writes a lightmap removes
+// old files.
+TEST_F(OwnFiles, WhatVanishesMeanwhileIsNotInTheWay) {
+  constexpr int kFiles = 3000;
+  nlohmann::ordered_json list{{"lucerna", "unfinished/1"}, {"files", nlohmann::json::array()}};
+  for (int i = 0; i < kFiles; ++i) list["files"].push_back(fmt::format("map-{:03}.exr", i));
+  putManifest();
+  put("unfinished.json", list.dump());
+  put("work/bake.json");
+  std::atomic<bool> over{false};
+  const std::jthread other([&] {
+    for (int i = 1; i < kFiles; ++i) {
+      for (const std::string& name :
+           {fmt::format("work/.bake.tmp-1-{}.json", i), fmt::format("map-{:03}.exr", i)}) {
+        put(name);
+        fs::remove(folder_ / name);
+      }
+    }
+    over = true;
+  });
+  std::string found;
+  while (!over && found.empty()) found = fault();
+  EXPECT_EQ(found, "");
+}
+
+TEST_F(OwnFiles, TheLockIsABakesAndStaysWithWhoHasIt) {
+  putManifest();
+  put("work/bake.lock");
+  put("work/bake.json");
+  EXPECT_EQ(fault(), "");
+  removeWork(folder_.path());
+  EXPECT_THAT(names(), AllOf(Contains("work/bake.lock"), testing::Not(Contains("work/bake.json"))));
 }
 
 TEST_F(OwnFiles, WhatIsClaimedGoesUnlessItIsNamed) {

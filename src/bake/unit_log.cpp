@@ -190,14 +190,6 @@ Status UnitLog::append(std::uint32_t unit, std::span<const std::byte> payload) {
   return {};
 }
 
-bool isBusy(const std::filesystem::path& log) {
-  const int file = ::open(log.c_str(), O_RDONLY | O_CLOEXEC);
-  if (file < 0) return false;
-  const bool busy = flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  close(file);
-  return busy;
-}
-
 Result<LogState> readUnitLog(
     const std::filesystem::path& path, std::uint64_t planHash, std::size_t units,
     const std::function<Status(std::uint32_t, std::span<const std::byte>)>& use) {

@@ -44,9 +44,6 @@ class UnitLog {
   std::unique_ptr<std::mutex> mutex_;
 };
 
-// Whether a process has the log open for writing.
-bool isBusy(const std::filesystem::path& log);
-
 // Calls use(unit, payload) for each sound record, the first of each unit, in the order of the file.
 // What `use` returns ends the reading if it is an error.
 Result<LogState> readUnitLog(

@@ -4,6 +4,7 @@ out; and what is missing or damaged is named.
 
 Usage: bake_test.py PROGRAM [unittest arguments]
 """
+import contextlib
 import hashlib
 import json
 import os
@@ -162,6 +163,22 @@ class BakeTest(unittest.TestCase):
         self.assertGreater(document["bake"]["units_before"], 0)
         self.assertEqual(self.hashes("d"), plain)
 
+    @contextlib.contextmanager
+    def held(self, reached, *arguments):
+        """A run that stands still from when reached() is true until the block ends, and goes on to a good end."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 120
+        while process.poll() is None and not reached() and time.monotonic() < deadline:
+            time.sleep(0.0005)
+        process.send_signal(signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            process.send_signal(signal.SIGCONT)
+            said = process.communicate(timeout=120)[1]
+        self.assertEqual(process.returncode, 0, said)
+
     def end(self, folder, sign, reached, *flags):
         """Starts a bake, ends it once reached() is true, and gives its exit code."""
         return self.end_run(["bake", SCENE, "-o", folder, *flags], sign, reached)
@@ -170,11 +187,16 @@ class BakeTest(unittest.TestCase):
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 120
-        while process.poll() is None and not reached() and time.monotonic() < deadline:
+        while process.poll() is None and not (reached() and self.hears(process)) and time.monotonic() < deadline:
             time.sleep(0.0005)
         process.send_signal(sign)
         self.said = process.communicate(timeout=120)[1]
         return process.returncode
+
+    def hears(self, process):
+        """Whether it has begun to listen for Ctrl-C."""
+        status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+        return int(re.search(r"SigCgt:\s*(\w+)", status)[1], 16) >> (signal.SIGINT - 1) & 1
 
     def logged(self, folder, count):
         """Whether the log of the only shard has so many bytes."""
@@ -361,14 +383,66 @@ class BakeTest(unittest.TestCase):
         plain, old = self.whole("plain", *flags), self.whole("d", *large)
         copies = lambda: len(list((self.folder / "d").glob("map-*.bc6h.ktx2"))) > 2
         self.assertEqual(self.end("d", signal.SIGKILL, copies, *flags, "--resume"), -signal.SIGKILL)
-        self.assertFalse((self.folder / "d" / "work").exists())
+        self.assertEqual(os.listdir(self.folder / "d" / "work"), ["bake.lock"])
         self.ok(self.lucerna("lightmap", "inspect", "d"))
         self.assertIn("nothing is left to do", self.ok(self.bake("d", *large, "--resume")).stderr)
         self.assertEqual(self.hashes("d"), old)
         self.assertEqual(self.end("d", signal.SIGINT, copies, *flags, "--resume"), 130)
+        self.assertIn("error: cancelled; the lightmap in 'd' is as it was, and some copies lie beside it: the same "
+                      "command writes them all\n", self.said)
         self.ok(self.lucerna("lightmap", "inspect", "d"))
         self.ok(self.bake("d", *flags, "--resume"))
         self.assertEqual(self.hashes("d"), plain)
+
+    # Several processes at once
+
+    BUSY = "another process writes into it at the moment; wait for it"
+
+    def refuses_beside(self, folder, *runs):
+        """Each of these runs, beside one that is held, says who is in the way and changes nothing."""
+        before = self.hashes(folder)
+        for run in runs:
+            self.fails(1, self.lucerna(*run), self.BUSY, f"'{folder}'")
+            self.assertEqual(self.hashes(folder), before)
+
+    def test_one_process_at_a_time_adds_copies(self):
+        large = ["--density", "800", "--size", "256", "--preset", "preview"]
+        adding = [*large, "--resume", "--encode"]
+        plain = self.whole("plain", *large, "--encode", "bc6h")
+        self.whole("d", *large)
+        copies = lambda: len(list((self.folder / "d").glob("map-*.bc6h.ktx2"))) > 2
+        with self.held(copies, "bake", SCENE, "-o", "d", *adding, "bc6h"):
+            self.refuses_beside("d", ["bake", SCENE, "-o", "d", *adding, "png"],
+                                ["bake", SCENE, "-o", "d", *adding, "bc6h"], ["bake", SCENE, "-o", "d", *large])
+            # Finished it is all the same, and what the other needs stays.
+            before = self.hashes("d")
+            self.ok(self.bake("d", *large, "--resume"))
+            self.ok(self.lucerna("lightmap", "merge", "d"))
+            self.assertEqual(self.hashes("d"), before)
+        self.assertEqual(self.hashes("d"), plain)
+
+    def test_one_process_at_a_time_writes_maps(self):
+        plain = self.whole("plain", *LONG)
+        for shard in (1, 2):
+            self.ok(self.bake("m", *LONG, "--shard", f"{shard}/2"))
+        merge = ["lightmap", "merge"]
+        for folder, run in (("w", ["bake", SCENE, "-o", "w", *LONG]), ("m", [*merge, "m"])):
+            with self.held(self.written(folder, 1), *run):
+                self.assertFalse((self.folder / folder / "manifest.json").exists())
+                self.refuses_beside(folder, ["bake", SCENE, "-o", folder, *LONG, "--resume"], [*merge, folder],
+                                    ["bake", SCENE, "-o", folder, *LONG, "--shard", "2/3"])
+            self.assertEqual(self.hashes(folder), plain)
+
+    def test_shards_light_side_by_side_and_none_is_merged_meanwhile(self):
+        plain = self.whole("plain", *LONG)
+        log = self.folder / "s" / "work" / "shard-1-of-2.log"
+        lit = lambda: log.exists() and log.stat().st_size > 1 << 16
+        with self.held(lit, "bake", SCENE, "-o", "s", *LONG, "--shard", "1/2"):
+            self.ok(self.bake("s", *LONG, "--shard", "2/2"))
+            self.refuses_beside("s", ["lightmap", "merge", "s"])
+            self.fails(1, self.bake("s", *LONG, "--shard", "1/2", "--resume"), "another process bakes this part")
+        self.ok(self.lucerna("lightmap", "merge", "s"))
+        self.assertEqual(self.hashes("s"), plain)
 
     def test_a_new_bake_replaces_all_of_an_old_one(self):
         self.whole("r", "--density", "80", "--size", "64", "--preset", "preview")
@@ -386,7 +460,7 @@ class BakeTest(unittest.TestCase):
         self.fails(2, self.bake("o", *SMALL, "--reach", 3, "--shard", "2/2"), "reach is none there, 3 here")
         self.fails(2, self.bake("o", *SMALL, "--shard", "2/2", scene="builtin:cornell?boxes=0"), "another scene",
                    "'builtin:cornell' there", "'builtin:cornell?boxes=0' here")
-        self.assertEqual(sorted(os.listdir(self.folder / "o" / "work")), ["bake.json", "shard-1-of-2.log"])
+        self.assertEqual(sorted(os.listdir(self.folder / "o" / "work")), ["bake.json", "bake.lock", "shard-1-of-2.log"])
 
     def test_the_order_of_lists_is_no_setting(self):
         (self.folder / "floor.obj").write_text("v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
@@ -517,9 +591,10 @@ class BakeTest(unittest.TestCase):
         for name in ("map-777.exr", "tex-777.png", "work/diary.txt", "unfinished.json"):
             (self.folder / "ours" / name).write_text(name)
             before = self.hashes("ours")
+            words = ["ours/unfinished.json:", "remove it"] if name == "unfinished.json" else [
+                "none of a lightmap", f"'{name}'"]
             for flags in ([], ["--resume"], ["--shard", "1/2"]):
-                self.fails(2, self.bake("ours", *SMALL, *flags, scene="no scene is read"), "none of a lightmap",
-                           f"'{name}'")
+                self.fails(2, self.bake("ours", *SMALL, *flags, scene="no scene is read"), *words)
             self.assertEqual(self.hashes("ours"), before)
             (self.folder / "ours" / name).unlink()
 
@@ -550,6 +625,19 @@ class BakeTest(unittest.TestCase):
         self.ok(self.bake("d", *other, "--shard", "1/2"))
         self.assertIn("nothing is left to do", self.ok(self.bake("d", *SMALL, "--resume")).stderr)
         self.assertEqual(set(self.hashes("d")), {*plain, "work/bake.json", "work/shard-1-of-2.log"})
+        # Nor what cannot be told whose it is.
+        order = self.folder / "d" / "work" / "bake.json"
+        sound = order.read_bytes()
+        for damaged in (b"", sound.replace(b"bake/1", b"bake/0"), None):
+            order.write_bytes(damaged) if damaged is not None else order.unlink()
+            before = self.hashes("d")
+            self.assertIn("nothing is left to do", self.ok(self.bake("d", *SMALL, "--resume")).stderr)
+            self.assertEqual(self.hashes("d"), before)
+        order.write_bytes(sound)
+        # Ctrl-C while it plans: --resume would not go on with what is there.
+        self.assertEqual(self.end("d", signal.SIGINT, lambda: True, *LONG), 130)
+        self.assertIn("error: cancelled; nothing was written\n", self.said)
+        self.assertEqual(order.read_bytes(), sound)
         self.ok(self.bake("d", *other, "--shard", "2/2"))
         self.ok(self.lucerna("lightmap", "merge", "d"))
         self.assertEqual(self.hashes("d"), self.whole("plain", *other))
