@@ -168,10 +168,9 @@ Status checkOthersThan(const Claimed& claimed, const fs::path& folder) {
         claimed && (!isLightmapFile(name) || (claimed->contains(name) && isFile(path)));
     if (isOwn || !isThere(path)) continue;
     if (!claimed) return noneOfALightmap(folder, name, kWantedEmpty);
-    if (isLightmapFile(name))
-      return noneOfALightmap(folder, name,
-                             "it is named like a lightmap's file, but no bake there has made it: "
-                             "move it elsewhere, or name another folder");
+    return noneOfALightmap(folder, name,
+                           "it is named like a lightmap's file, but no bake there has made it: "
+                           "move it elsewhere, or name another folder");
   }
   return {};
 }

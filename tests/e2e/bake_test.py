@@ -187,7 +187,8 @@ class BakeTest(unittest.TestCase):
         process = subprocess.Popen([PROGRAM, *arguments], cwd=self.folder,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + 120
-        while process.poll() is None and not (reached() and self.hears(process)) and time.monotonic() < deadline:
+        ready = lambda: reached() and (sign != signal.SIGINT or self.hears(process))
+        while process.poll() is None and not ready() and time.monotonic() < deadline:
             time.sleep(0.0005)
         process.send_signal(sign)
         self.said = process.communicate(timeout=120)[1]
