@@ -34,8 +34,9 @@ struct GroupRange {
 };
 
 // Groups take memory while they are here, so whoever has many puts in some at a time: as many as
-// take mostGroupBytes() together, at kLitBytes a texel (six, and those of tiles that are not full).
-inline constexpr std::uint64_t kLitBytes = 8;
+// take mostGroupBytes() together, at kLitBytes a texel (six, and those of tiles that are not full)
+// and kGroupBytes each.
+inline constexpr std::uint64_t kLitBytes = 8, kGroupBytes = 32 << 10;
 std::uint64_t mostGroupBytes(const Plan& plan);
 
 struct BakedLight {

@@ -34,6 +34,7 @@ Json settingsJson(const BakeSettings& s) {
             {"finePositions", s.sampling.finePositions},
             {"lightSamples", s.sampling.lightSamples},
             {"emitterSize", number(s.sampling.emitterSize)},
+            {"emitterShare", number(s.sampling.emitterShare)},
             {"faintest", number(s.faintest)},
             {"sky", {number(s.sky.x), number(s.sky.y), number(s.sky.z)}},
             {"skyDirections", s.sampling.skyDirections},
@@ -49,13 +50,13 @@ Json settingsJson(const BakeSettings& s) {
 
 void readSettings(const JsonValue& from, BakeSettings& s) {
   if (!from.object({"unwrap", "density", "size", "padding", "mostMaps", "positions",
-                    "finePositions", "lightSamples", "emitterSize", "faintest", "sky",
-                    "skyDirections", "skyPoints", "engine", "patchTolerance", "reach", "lights",
-                    "encode"}))
+                    "finePositions", "lightSamples", "emitterSize", "emitterShare", "faintest",
+                    "sky", "skyDirections", "skyPoints", "engine", "patchTolerance", "reach",
+                    "lights", "encode"}))
     return;
   from.require({"unwrap", "density", "size", "padding", "mostMaps", "positions", "finePositions",
-                "lightSamples", "emitterSize", "faintest", "sky", "skyDirections", "skyPoints",
-                "engine"});
+                "lightSamples", "emitterSize", "emitterShare", "faintest", "sky", "skyDirections",
+                "skyPoints", "engine"});
   int choice = 0;
   if (from.readChoice("unwrap", {"charts", "pairs"}, choice))
     s.unwrap = choice == 0 ? Unwrap::Charts : Unwrap::Pairs;
@@ -67,6 +68,7 @@ void readSettings(const JsonValue& from, BakeSettings& s) {
   from.readInteger("finePositions", s.sampling.finePositions, 0, 64);
   from.readInteger("lightSamples", s.sampling.lightSamples, 1, 1 << 16);
   from.read("emitterSize", s.sampling.emitterSize, {1e-6f, 1e6f, ""});
+  from.read("emitterShare", s.sampling.emitterShare, {1e-6f, 1.f, ""});
   from.read("faintest", s.faintest, kUnitRange);
   if (from.readChoice("engine", {"embree", "octree"}, choice))
     s.engine = choice == 0 ? Engine::Embree : Engine::Octree;
@@ -107,8 +109,9 @@ constexpr std::pair<const char*, const char*> kFlags[]{{"density", "--density"},
 std::string presetOf(const Sampling& s) {
   for (const Preset& preset : kPresets)
     if (s == preset.sampling) return preset.name;
-  return fmt::format("none of this version's ({}, {}, {}, {})", s.positions, s.finePositions,
-                     s.lightSamples, s.emitterSize);
+  return fmt::format("none of this version's ({}, {}, {}, {}, {}, {}, {})", s.positions,
+                     s.finePositions, s.lightSamples, s.emitterSize, s.emitterShare,
+                     s.skyDirections, s.skyPoints);
 }
 
 // As the command line takes it.

@@ -30,6 +30,7 @@ BakeOrder someOrder() {
                              .finePositions = 8,
                              .lightSamples = 32,
                              .emitterSize = 0.1f,
+                             .emitterShare = 0.3f,
                              .skyDirections = 64,
                              .skyPoints = 3};
   order.settings.patchTolerance = 0.3f;
@@ -107,8 +108,9 @@ TEST(BakeOrder, APresetDiffersByItsName) {
   EXPECT_THAT(keepOrder(folder.path(), order).error().message,
               HasSubstr("other settings: --preset is standard there, final here; give"));
   ++order.settings.sampling.positions;
-  EXPECT_THAT(keepOrder(folder.path(), order).error().message,
-              HasSubstr("standard there, none of this version's (5, 8, 32, 0.05) here; give"));
+  EXPECT_THAT(
+      keepOrder(folder.path(), order).error().message,
+      HasSubstr("standard there, none of this version's (5, 8, 32, 0.05, 1, 256, 4) here; give"));
 }
 
 TEST(BakeOrder, DamageSaysWhatToDo) {

@@ -323,7 +323,7 @@ void BlockLighter::lightByEmitters(const Samples& samples, const Tile& tile) {
       all += near_.back().gives;
     });
     for (const Near& n : near_) {
-      const float points = n.gives / (settings_.mostShare * all);
+      const float points = n.gives / (settings_.emitterShare * all);
       if (!(points > 1.f)) {
         light(n.node, kAny, n.distance);
         continue;

@@ -23,6 +23,10 @@ constexpr int kSkyRimPoints = 4;
 // and is so of one block in twenty at most, in scenes that are not empty.
 constexpr std::size_t kFewRays = 1024;
 
+int rimPointsOf(const PlacedLight& light) {
+  return isOfSky(light) ? kSkyRimPoints : kRimPoints;
+}
+
 float distanceTo(const Aabb& box, vec3 p) {
   return glm::length(glm::max(glm::max(box.min - p, p - box.max), vec3(0.f)));
 }
@@ -173,7 +177,7 @@ void BlockLighter::forgetRays() {
 }
 
 bool BlockLighter::isClear(const Samples& samples, const PlacedLight& light) const {
-  const std::size_t points = hasSize(light) && settings_.lightSamples > 1 ? kRimPoints : 1;
+  const auto points = static_cast<std::size_t>(pointsOf(light) > 1 ? rimPointsOf(light) : 1);
   if (!samples.planar || points * samples.size() < kFewRays) return false;
   if (light.kind == LightKind::Directional)
     return !occluders_.anyIn(shaftAlong(-light.directionW,
@@ -313,7 +317,7 @@ void BlockLighter::traceSized(const Samples& samples, const Tile& tile, const Pl
     return;
   }
   gather(samples);
-  const int rim = isOfSky(light) ? kSkyRimPoints : kRimPoints;
+  const int rim = rimPointsOf(light);
   for (int i = 0; i < rim; ++i)
     ask(light, disc, [&](std::uint16_t) {
       return onCircle(0.999f, static_cast<float>(i) / static_cast<float>(rim));

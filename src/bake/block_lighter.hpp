@@ -61,7 +61,7 @@ class BlockLighter final : public Lighter {
                      std::uint32_t seed, float most, float distance);
   // Whether nodes that give much are cut: places of texels with several see other points anyway.
   bool splits(const Samples& samples) const {
-    return samples.perTexel == 1 && settings_.mostShare < 1.f;
+    return samples.perTexel == 1 && settings_.emitterShare < 1.f;
   }
   float mostOf(float most, float distance) const;
   float givesTo(const Samples& samples, const Tile& tile, const EmitterNode& node) const;

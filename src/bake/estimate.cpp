@@ -110,7 +110,6 @@ void extrapolate(const Plan& plan, const std::vector<Measured>& found, Estimate&
   for (const Measured& one : found) squares += std::pow(one.seconds - ratio * one.texels, 2.);
   const double left = 1. - count / static_cast<double>(plan.units.size());
   result.units = found.size();
-  result.texels = static_cast<std::uint64_t>(sum.texels);
   result.lightSeconds = sum.seconds * factor / threads;
   if (count > 1.)
     result.deviation = std::sqrt(squares * left * count / (count - 1.)) * factor / threads;

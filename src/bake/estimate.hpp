@@ -9,11 +9,11 @@
 namespace lucerna::bake {
 
 struct Estimate {
-  std::uint64_t units = 0, texels = 0;  // lit for it, some units in part; as Plan::texels()
-  std::uint64_t emitterCells = 0;       // of surfaces that shine
-  double prepareSeconds = 0.;           // taken, before the first ray
-  double lightSeconds = 0.;             // of this machine's threads as they are set
-  double deviation = 0.;                // standard, of lightSeconds; 0 of a single unit
+  std::uint64_t units = 0;         // lit for it, some in part
+  std::uint64_t emitterCells = 0;  // of surfaces that shine
+  double prepareSeconds = 0.;      // taken, before the first ray
+  double lightSeconds = 0.;        // of this machine's threads as they are set
+  double deviation = 0.;           // standard, of lightSeconds; 0 of a single unit
   // At once, while light is made: measured. While maps are made: measured up to the plan, and
   // counted for maps and groups. 0: this machine does not say.
   std::uint64_t lightBytes = 0, finishBytes = 0;

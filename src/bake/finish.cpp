@@ -71,7 +71,7 @@ GroupRange nextGroups(const std::vector<std::uint64_t>& lit, std::uint32_t first
                       std::uint64_t mostBytes) {
   GroupRange range{.first = first, .last = first};
   for (std::uint64_t bytes = 0; range.last < lit.size(); ++range.last) {
-    bytes += kLitBytes * lit[range.last];
+    bytes += kLitBytes * lit[range.last] + kGroupBytes;
     if (bytes > mostBytes && range.last > first) break;
   }
   return range;

@@ -68,6 +68,7 @@ Holes::Picture Holes::pictureOf(const scene::Scene& scene, const trace::Spot& tr
     if (!(std::abs(uv.x) < kMost && std::abs(uv.y) < kMost)) return {};
     picture.places[k] = uv * vec2(picture.size) - 0.5f;
   }
+  if (!std::isfinite(picture.least)) return {};
   picture.alphas = image.as<std::uint8_t>().data() + image.channels() - 1;
   return picture;
 }

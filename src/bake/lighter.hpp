@@ -35,7 +35,7 @@ struct LighterSettings {
   // Largest size of emitting surface that one ray stands for, as a share of its distance.
   float emitterSize = 0.25f;
   // Of a texel's light that one ray to an emitting surface stands for, of texels of one place.
-  float mostShare = 1.f;
+  float emitterShare = 1.f;
   // A texel is uneven where its samples deviate by more than this share of its light.
   float uneven = 0.05f;
   float sceneDiagonal = 1.f;  // m

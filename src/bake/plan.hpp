@@ -26,6 +26,9 @@ struct Sampling {
   int finePositions;  // the same of texels at the edges of shadows; 0: no others
   int lightSamples;   // points on a light with a size, see LighterSettings
   float emitterSize;  // of an emitting surface for one ray / its distance
+  // Of a texel's light that one ray to an emitting surface stands for at most, if the texel has one
+  // position.
+  float emitterShare;
   int skyDirections;  // lights that stand for the sky, see skyLights()
   int skyPoints;      // on each of them, see LighterSettings
   bool operator==(const Sampling&) const = default;
@@ -35,18 +38,21 @@ inline constexpr Sampling kPreview{.positions = 1,
                                    .finePositions = 0,
                                    .lightSamples = 1,
                                    .emitterSize = 0.5f,
+                                   .emitterShare = 1.f,
                                    .skyDirections = 64,
                                    .skyPoints = 16};
 inline constexpr Sampling kStandard{.positions = 1,
                                     .finePositions = 3,
                                     .lightSamples = 16,
                                     .emitterSize = 0.25f,
+                                    .emitterShare = 1.f / 16,
                                     .skyDirections = 128,
                                     .skyPoints = 32};
 inline constexpr Sampling kFinal{.positions = 4,
                                  .finePositions = 8,
                                  .lightSamples = 32,
                                  .emitterSize = 0.05f,
+                                 .emitterShare = 1.f,
                                  .skyDirections = 256,
                                  .skyPoints = 4};
 

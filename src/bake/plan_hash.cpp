@@ -7,7 +7,7 @@ namespace lucerna::bake {
 namespace {
 
 // What a change of this program does to the light that is stored raises it.
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 
 void add(ByteWriter& w, const scene::TextureSlot& slot) {
   w(slot.texture);
@@ -50,6 +50,7 @@ void add(ByteWriter& w, const BakeSettings& s) {
   w(s.sampling.finePositions);
   w(s.sampling.lightSamples);
   w(s.sampling.emitterSize);
+  w(s.sampling.emitterShare);
   w(s.reach);
   w(s.faintest);
   w(s.sky);

@@ -144,7 +144,6 @@ TEST(Estimate, OfAllUnitsIsOfTheWholeBake) {
   const auto all = estimate(*plan, 1e9);
   ASSERT_TRUE(all);
   EXPECT_EQ(all->units, plan->units.size());
-  EXPECT_EQ(all->texels, plan->texels());
   EXPECT_EQ(all->deviation, 0.);
   EXPECT_GT(all->lightSeconds, 0.);
   const auto little = estimate(*plan, 0.);

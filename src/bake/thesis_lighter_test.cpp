@@ -61,10 +61,12 @@ scene::Light& addOne(scene::Scene& scene, LightKind kind) {
   return addLight(scene, kind, {0.2f, 2.1f, 0.4f}, vec3(0.1f, -1.f, -0.3f));
 }
 
-// As `standard`, without edges of shadows from more places, which engine octree leaves out.
+// As `standard`, without edges of shadows from more places and strong surfaces by more points,
+// which engine octree leaves out.
 Sampling onePlace() {
   Sampling sampling = kStandard;
   sampling.finePositions = 0;
+  sampling.emitterShare = 1.f;
   return sampling;
 }
 
@@ -128,7 +130,7 @@ TEST(ThesisLighter, EveryTexelAsksEveryCellThatItFaces) {
   const std::uint32_t floor = addRectangle(scene, {0, 0, 0}, {2, 0, 0}, {0, 0, -2});
   addSurface(scene, vec3(20.f));
   addRectangle(scene, {0.2f, 2, 0.1f}, {0.2f, 0, 0}, {0, 0, 0.2f});
-  Plan plan = planOf(scene, {.density = 20.f});
+  Plan plan = planOf(scene, {.density = 20.f, .sampling = onePlace()});
   const std::size_t texels = texelsOf(litBy(Engine::Octree, plan), floor).size();
   const LightScene lightScene(plan);
   ASSERT_EQ(lightScene.cells.size(), lightScene.emitters.cells);
@@ -136,7 +138,7 @@ TEST(ThesisLighter, EveryTexelAsksEveryCellThatItFaces) {
   const LightCounters octree = countersOf(Engine::Octree, plan);
   EXPECT_EQ(octree.rays, texels * lightScene.cells.size());
   EXPECT_EQ(octree.pairs, octree.rays);
-  EXPECT_LT(3 * countersOf(Engine::Embree, plan).rays, octree.rays);
+  EXPECT_LT(20 * countersOf(Engine::Embree, plan).rays, octree.rays);
 }
 
 TEST(ThesisLighter, WhatALampCannotLightCostsNoRay) {

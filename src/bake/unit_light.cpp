@@ -38,7 +38,7 @@ std::unique_ptr<Lighter> makeLighter(const Plan& plan, const LightScene& scene) 
                                  .skyPoints = sampling.skyPoints,
                                  .shared = sampling.positions == 1 ? 2 : 1,
                                  .emitterSize = sampling.emitterSize,
-                                 .mostShare = 1.f / static_cast<float>(sampling.lightSamples),
+                                 .emitterShare = sampling.emitterShare,
                                  .sceneDiagonal = scene.diagonal,
                                  .sceneBoxW = scene.boxW};
   switch (scene.engine) {
@@ -159,6 +159,7 @@ const Samples& UnitLighter::sample(const Block& block) {
   uneven_.around = nullptr;
   if (fineSampler_ && plan_.settings.sampling.positions == 1) {
     sampler_->sampleAround(block, samplesAround_);
+    hidden_.remove(samplesAround_, block.chart);
     uneven_.around = &samplesAround_;
   }
   samplingSeconds += secondsSince(start);

@@ -23,7 +23,7 @@ class LightmapWriter {
   static Result<LightmapWriter> begin(const Plan& plan, const std::filesystem::path& folder);
 
   // Of all maps: masters, copies in other encodings, pictures for the glTF copy. texels: which of
-  // them show light; they outlive the writer.
+  // them show light.
   Status writeMaps(const std::vector<Image>& maps, const MapTexels& texels);
   // After the maps; each group once, in rising order.
   Status writePatches(const BakedLight& baked, const GroupRange& groups, Progress& progress);

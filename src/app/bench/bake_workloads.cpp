@@ -143,6 +143,7 @@ Result<LoadPlan> planLoad(const scene::Scene& scene, const Load& load, float den
   bake::BakeSettings settings;
   settings.density = density;
   settings.sampling.finePositions = 0;  // the same work for both engines
+  settings.sampling.emitterShare = 1.f;
   settings.faintest = 0;
   if (load.reach > 0) settings.reach = load.reach;
   settings.sampling.lightSamples = load.points ? 1 : 16;
