@@ -172,6 +172,7 @@ class BakeTest(unittest.TestCase):
         while process.poll() is None and not reached() and time.monotonic() < deadline:
             time.sleep(0.0005)
         process.send_signal(signal.SIGSTOP)
+        os.waitid(os.P_PID, process.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)  # all of its threads
         try:
             yield
         finally:
