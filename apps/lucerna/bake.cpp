@@ -112,6 +112,9 @@ Status light(Options& options, const bake::Plan& plan, bake::BakeReport& report)
 
 Status finish(const Options& options, const bake::Plan& plan, bake::BakeReport& report) {
   LUCERNA_TRY(lock, bake::FolderLock::take(options.folder, bake::FolderLock::Use::Write));
+  // Another process may have finished it between its light and this.
+  if (const auto finished = bake::isFinished(plan, options.folder); finished && *finished)
+    return {};
   return bake::finish(plan, options.folder, report);
 }
 
