@@ -112,9 +112,11 @@ Status light(Options& options, const bake::Plan& plan, bake::BakeReport& report)
 
 Status finish(const Options& options, const bake::Plan& plan, bake::BakeReport& report) {
   LUCERNA_TRY(lock, bake::FolderLock::take(options.folder, bake::FolderLock::Use::Write));
-  // Another process may have finished it between its light and this.
-  if (const auto finished = bake::isFinished(plan, options.folder); finished && *finished)
-    return {};
+  // Another process may have finished it between its light and this, and removed the work.
+  std::error_code none;
+  if (!std::filesystem::exists(bake::orderPath(options.folder), none))
+    if (const auto finished = bake::isFinished(plan, options.folder); finished && *finished)
+      return {};
   return bake::finish(plan, options.folder, report);
 }
 
