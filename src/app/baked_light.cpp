@@ -62,6 +62,11 @@ Status checkScene(const lightmap::Lightmap& lightmap, const scene::Scene& scene)
                    light.light, scene.name, describe(now.name, now.group),
                    describe(light.name, light.group));
   }
+  for (const lightmap::ObjectEntry& object : lightmap.manifest.objects)
+    if (object.object >= scene.objects.size())
+      return error(ErrorKind::Input,
+                   "the lightmap knows object {}, '{}', and '{}' has {} objects; bake it again",
+                   object.object, object.node, scene.name, scene.objects.size());
   const std::string& wanted = lightmap.manifest.geometryHash;
   if (!wanted.empty() && wanted != lightmap::hashText16(lightmap::geometryHash(scene)))
     return error(ErrorKind::Input,
@@ -79,16 +84,49 @@ bool hasChanged(const scene::Scene& scene, const lightmap::LightEntry& entry) {
          entry.hash != lightmap::hashText16(lightmap::lightHash(scene, entry.light));
 }
 
+// "'lamp' the first"
+std::string theFirst(const std::string& name) {
+  return name.empty() ? "one without a name the first" : fmt::format("'{}' the first", name);
+}
+
 void warnOfChangedLights(const scene::Scene& scene, const lightmap::Manifest& manifest) {
   std::vector<std::string> names;
   for (const lightmap::LightEntry& entry : manifest.lights)
     if (hasChanged(scene, entry)) names.push_back(entry.name);
   if (names.empty()) return;
   log::warning(
-      "{} of the {} lights of the lightmap have changed since it was baked, {}the first; "
-      "it shows them as they were: bake it again",
-      names.size(), manifest.lights.size(),
-      names.front().empty() ? "one without a name " : fmt::format("'{}' ", names.front()));
+      "{} of the {} lights of the lightmap have changed since it was baked, {}; it shows them "
+      "as they were: bake it again",
+      names.size(), manifest.lights.size(), theFirst(names.front()));
+}
+
+// Of each node: whether an animation moves it or what it hangs on, playing or not.
+std::vector<bool> animatedNodes(const scene::Scene& scene) {
+  std::vector<bool> animated(scene.nodes.size(), false);
+  for (const scene::Animation& animation : scene.animations)
+    for (const scene::AnimationChannel& channel : animation.channels)
+      if (channel.node != scene::kNone) animated[channel.node] = true;
+  for (std::size_t i = 0; i < animated.size(); ++i)
+    if (const std::uint32_t parent = scene.nodes[i].parent; parent != scene::kNone)
+      animated[i] = animated[i] || animated[parent];
+  return animated;
+}
+
+// The scene stands as at 0 s. A bake plays what plays unless --animation chooses: by another choice
+// what is animated stands elsewhere, or by a last bit.
+void warnOfMovedObjects(const scene::Scene& scene, const lightmap::Manifest& manifest,
+                        bool asBaked) {
+  const std::vector<bool> animated = animatedNodes(scene);
+  std::vector<std::string> names;
+  for (const lightmap::ObjectEntry& entry : manifest.objects)
+    if (!entry.hash.empty() && (asBaked || !animated[scene.objects[entry.object].node]) &&
+        entry.hash != lightmap::hashText16(lightmap::placeHash(scene, entry.object)))
+      names.push_back(entry.node);
+  if (names.empty()) return;
+  log::warning(
+      "{} of the {} objects of the lightmap have been moved, turned or scaled since it was baked, "
+      "{}; light and shadows are those of where they stood: bake it again",
+      names.size(), manifest.objects.size(), theFirst(names.front()));
 }
 
 // A group switches as a whole: what the scene has switched off of one that is on shines, too.
@@ -145,6 +183,7 @@ Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSetti
   LUCERNA_TRY_VOID(checkScene(lightmap, scene));
   LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, settings.lightsOff));
   warnOfChangedLights(scene, lightmap.manifest);
+  warnOfMovedObjects(scene, lightmap.manifest, settings.animation.empty());
   warnOfSplitGroups(scene, lightmap.manifest);
   std::vector<std::string> off = groupsOff(scene, lightmap.manifest);
   off.insert(off.end(), settings.lightsOff.begin(), settings.lightsOff.end());

@@ -129,6 +129,14 @@ class BakedFolderTest : public testing::Test {
     return images;
   }
 
+  // To stderr, as the lightmap is taken.
+  std::string said() const {
+    scene::Scene scene = scene_;
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(takeBakedLight(scene, settings_));
+    return testing::internal::GetCapturedStderr();
+  }
+
   Error errorOf() {
     scene::Scene scene = scene_;
     const auto maps = takeBakedLight(scene, settings_);
@@ -220,18 +228,56 @@ TEST_F(BakedFolderTest, AGroupStartsAsTheSceneHasIt) {
 TEST_F(BakedFolderTest, SaysWhichLightsHaveChanged) {
   manifest_.lights[0].hash = lightmap::hashText16(lightmap::lightHash(scene_, 0));
   writeManifest();
-  const auto said = [&] {
-    scene::Scene scene = scene_;
-    testing::internal::CaptureStderr();
-    EXPECT_TRUE(takeBakedLight(scene, settings_));
-    return testing::internal::GetCapturedStderr();
-  };
   EXPECT_EQ(said(), "");
   scene_.lights[0].color.x *= 0.5f;
   EXPECT_THAT(said(), HasSubstr("1 of the 1 lights of the lightmap have changed"));
   scene_.lights[0].name = "another";
   EXPECT_THAT(errorOf().message, HasSubstr("light 0 of"));
   EXPECT_THAT(errorOf().message, HasSubstr("is 'another', always-on, and when"));
+}
+
+TEST_F(BakedFolderTest, SaysHowManyObjectsHaveMoved) {
+  for (std::uint32_t i = 0; i < scene_.objects.size(); ++i)
+    manifest_.objects.push_back({.node = scene_.nodes[scene_.objects[i].node].name,
+                                 .object = i,
+                                 .charts = 0,
+                                 .maps = {},
+                                 .hash = lightmap::hashText16(lightmap::placeHash(scene_, i))});
+  writeManifest();
+  EXPECT_EQ(said(), "");
+  const scene::Scene baked = scene_;
+  const auto saidOf = [&](auto change) {
+    scene_ = baked;
+    change(scene_.nodes[scene_.objects[1].node]);
+    scene::updateTransforms(scene_);
+    return said();
+  };
+  const std::string warning = fmt::format(
+      "1 of the {} objects of the lightmap have been moved, turned or scaled since it "
+      "was baked, '{}' the first; light and shadows are those of where they stood: "
+      "bake it again",
+      scene_.objects.size(), manifest_.objects[1].node);
+  EXPECT_THAT(saidOf([](scene::Node& node) { node.translation.x += 1e-3f; }), HasSubstr(warning));
+  EXPECT_THAT(saidOf([](scene::Node& node) { node.scale.y *= 1.01f; }), HasSubstr(warning));
+  EXPECT_THAT(saidOf([](scene::Node& node) {
+                node.rotation = glm::angleAxis(0.01f, vec3(0, 1, 0)) * node.rotation;
+              }),
+              HasSubstr(warning));
+  // An animation that --animation chooses moves what it moves; nothing else.
+  settings_.animation = "none";
+  EXPECT_THAT(said(), HasSubstr(warning));
+  scene::AnimationChannel channel;
+  channel.node = scene_.objects[1].node;
+  scene_.animations.push_back({.name = "turn", .channels = {channel}, .playing = false});
+  EXPECT_EQ(said(), "");
+  settings_.animation.clear();
+  EXPECT_THAT(said(), HasSubstr(warning));
+  for (lightmap::ObjectEntry& object : manifest_.objects) object.hash.clear();  // not known
+  writeManifest();
+  EXPECT_EQ(said(), "");
+  manifest_.objects.push_back({.node = "moon", .object = 700, .charts = 0, .maps = {}});
+  writeManifest();
+  EXPECT_THAT(errorOf().message, HasSubstr("the lightmap knows object 700, 'moon', and"));
 }
 
 TEST_F(BakedFolderTest, SaysWhatDoesNotFit) {

@@ -114,10 +114,12 @@ void describeScene(const Plan& plan, Manifest& manifest) {
   manifest.side = plan.settings.pack.side;
   manifest.density = plan.settings.density;
   for (const WorldObject& object : plan.world.objects)
-    manifest.objects.push_back({.node = scene.nodes[scene.objects[object.object].node].name,
-                                .object = object.object,
-                                .charts = 0,
-                                .maps = {}});
+    manifest.objects.push_back(
+        {.node = scene.nodes[scene.objects[object.object].node].name,
+         .object = object.object,
+         .charts = 0,
+         .maps = {},
+         .hash = lightmap::hashText16(lightmap::placeHash(scene, object.object))});
   for (std::size_t i = 0; i < plan.charts.charts.size(); ++i) {
     lightmap::ObjectEntry& object = manifest.objects[plan.charts.charts[i].object];
     ++object.charts;

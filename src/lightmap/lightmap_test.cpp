@@ -67,7 +67,13 @@ Manifest smallManifest() {
                        .form = "triangles",
                        .bytes = 10,
                        .otherBytes = 20}},
-          .objects = {{.node = "box", .object = 3, .charts = 6, .maps = {0}}},
+          .objects = {{
+              .node = "box",
+              .object = 3,
+              .charts = 6,
+              .maps = {0},
+              .hash = hashText16(10),
+          }},
           .lights = {{.name = "lamp", .group = "lamps", .light = 4, .hash = hashText16(9)}},
           .gltf = {{"scene.gltf", hashText16(6)}, {"scene.bin", hashText16(7)}}};
 }
@@ -99,6 +105,7 @@ TEST(Manifest, TextAndBack) {
   EXPECT_EQ(back->patches.at(0).form, "triangles");
   EXPECT_EQ(back->patches.at(0).otherBytes, 20u);
   EXPECT_EQ(back->objects.at(0).maps, std::vector<int>{0});
+  EXPECT_EQ(back->objects.at(0).hash, hashText16(10));
   EXPECT_EQ(back->lights.at(0).light, 4u);
   EXPECT_EQ(back->lights.at(0).hash, hashText16(9));
   ASSERT_EQ(back->gltf.size(), 2u);
@@ -110,10 +117,12 @@ TEST(Manifest, WhatHasNoNameComesBackWithoutOne) {
   Manifest manifest = smallManifest();
   manifest.processor.clear();
   manifest.objects[0].node.clear();
+  manifest.objects[0].hash.clear();  // as older ones
   manifest.lights[0] = {.name = "", .group = "", .light = 4};
   const Result<Manifest> back = manifestFrom(toJson(manifest), "manifest.json");
   ASSERT_TRUE(back) << back.error().message;
   EXPECT_EQ(back->objects.at(0).node, "");
+  EXPECT_EQ(back->objects.at(0).hash, "");
   EXPECT_EQ(back->lights.at(0).group, "");
 }
 

@@ -43,6 +43,7 @@ Json json(const ObjectEntry& object) {
   addText(result, "node", object.node);
   result["charts"] = object.charts;
   result["maps"] = object.maps;
+  addText(result, "hash", object.hash);
   return result;
 }
 
@@ -117,10 +118,11 @@ void readEntry(const JsonValue& value, PatchEntry& patch) {
 }
 
 void readEntry(const JsonValue& value, ObjectEntry& object) {
-  if (!value.object({"object", "node", "charts", "maps"})) return;
+  if (!value.object({"object", "node", "charts", "maps", "hash"})) return;
   readIndex(value, "object", object.object);
   value.read("node", object.node);
   readIndex(value, "charts", object.charts);
+  value.read("hash", object.hash);
   if (!value.has("maps")) return;
   for (const JsonValue& map : value.at("maps").elements()) {
     float index = 0.f;

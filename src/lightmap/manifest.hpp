@@ -34,6 +34,7 @@ struct ObjectEntry {
   std::uint32_t object = 0;  // index in Scene::objects
   std::uint32_t charts = 0;
   std::vector<int> maps;
+  std::string hash{};  // of where it stands at 0 s (lightmap/scene_hash.hpp); "": not known
 };
 
 struct LightEntry {

@@ -18,6 +18,11 @@ std::uint64_t geometryHash(const scene::Scene& scene) {
   return hash;
 }
 
+std::uint64_t placeHash(const scene::Scene& scene, std::uint32_t object) {
+  const mat4& worldFromObject = scene.nodes[scene.objects[object].node].worldFromNode;
+  return hashBytes(std::as_bytes(std::span(&worldFromObject, 1)));
+}
+
 std::uint64_t lightHash(const scene::PlacedLight& l) {
   ByteWriter w;
   w(static_cast<int>(l.kind));

@@ -11,6 +11,9 @@ namespace lucerna::lightmap {
 // what they are made of.
 std::uint64_t geometryHash(const scene::Scene& scene);
 
+// Of where an object stands: its world matrix, to the bit.
+std::uint64_t placeHash(const scene::Scene& scene, std::uint32_t object);
+
 // Of all that a light's irradiance depends on; its place in Scene::lights is not in it.
 std::uint64_t lightHash(const scene::PlacedLight& light);
 

@@ -127,6 +127,29 @@ class CliTest(unittest.TestCase):
         self.assert_fails(2, "always on cannot be switched off", "wanted one of desk, shop",
                           arguments=[*render, "-o", "d.png", "--lights-off", "always-on"])
 
+    def test_objects_that_moved_since_the_bake_are_warned_of(self):
+        self.write("floor.obj", "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nf 1 2 3 4\n")
+        lamp = {"kind": "point", "intensity": 9, "position": [0, 3, 0]}
+
+        def warnings(height, *flags):
+            self.write("two.json", json.dumps({"lucerna": "scene/1", "lights": [lamp], "include": [
+                {"file": "floor.obj"}, {"file": "floor.obj", "translation": [0, height, 0]}]}))
+            if "-o" in flags:
+                self.assert_ok(self.lucerna("bake", "two.json", *flags))
+            run = self.lucerna("render", "two.json", "--lightmap", "b", *SMALL, "-o", "a.png")
+            self.assert_ok(run)
+            return run.stderr
+        self.assertNotIn("warning", warnings(1, "-o", "b", "--size", "64"))
+        self.assertIn("1 of the 2 objects of the lightmap have been moved, turned or scaled", warnings(1.5))
+
+    def test_objects_that_an_animation_moves_are_not_warned_of(self):
+        moving = "builtin:atrium?moving=0.5"
+        self.assert_ok(self.lucerna("bake", moving, "-o", "b", "--density", 1, "--preset", "preview", "--size", "512"))
+        for flags in (["--time", 2.5], ["--animation", "none"]):
+            run = self.lucerna("render", moving, "--lightmap", "b", *SMALL, *flags, "-o", "a.png")
+            self.assert_ok(run)
+            self.assertNotIn("warning", run.stderr)
+
     def test_bad_values_of_other_subcommands(self):
         def fails(*words, arguments):
             self.assert_fails(2, *words, arguments=arguments)
