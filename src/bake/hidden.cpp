@@ -121,7 +121,6 @@ void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> w
     for (std::size_t k = 0; k < open_.size(); ++k) {
       Open& o = open_[k];
       ++(counts_[k] > 0 ? o.inside : o.outside);
-      inside_[o.sample] = static_cast<std::uint8_t>(o.inside);
       if (o.inside == kEnough) hidden_[o.sample] = true;
       if (o.inside < kEnough && o.outside <= kRays - kEnough) open_[kept++] = o;
     }
@@ -129,32 +128,23 @@ void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> w
   }
 }
 
-// Of a texel's samples that are not hidden, which the fewest rays say inside of; scene::kNone if
-// all are. Those that are as far from the middle are taken in their order: of texels that the same
-// wall cuts through their middles all are then of the same side.
+// Of a texel's samples that are not hidden; scene::kNone if all are. Of those that are as far from
+// the middle the first: it is of the same side in all texels that a wall cuts through their
+// middles.
 std::uint32_t HiddenSamples::nextToMiddle(const Samples& samples, std::uint32_t first,
                                           std::uint32_t end) const {
   vec3 middle(0.f);
   for (std::uint32_t i = first; i < end; ++i) middle += positionAt(samples, i);
   middle /= static_cast<float>(end - first);
   std::uint32_t nearest = scene::kNone;
-  const float alike = 0.01f * samples.texelSize;
-  const auto isBefore = [&](std::uint32_t a, std::uint32_t b) {
-    if (inside_[a] != inside_[b]) return inside_[a] < inside_[b];
-    return glm::distance(positionAt(samples, a), middle) <
-           glm::distance(positionAt(samples, b), middle) - alike;
+  const auto distance = [&](std::uint32_t k) {
+    return glm::distance(positionAt(samples, k), middle);
   };
+  const float alike = 0.01f * samples.texelSize;
   for (std::uint32_t k = first; k < end; ++k)
-    if (!hidden_[k] && (nearest == scene::kNone || isBefore(k, nearest))) nearest = k;
+    if (!hidden_[k] && (nearest == scene::kNone || distance(k) < distance(nearest) - alike))
+      nearest = k;
   return nearest;
-}
-
-// Of texels most of which is inside of a solid the rest, too: what seems open there may be a crack.
-void HiddenSamples::hideMostlyHidden(const Samples& samples, const Tile& tile) {
-  forTexels(samples, tile, [&](std::uint32_t first, std::uint32_t end) {
-    const auto begin = hidden_.begin() + first, last = hidden_.begin() + end;
-    if (2 * std::count(begin, last, true) > last - begin) std::fill(begin, last, true);
-  });
 }
 
 // Of each texel of the tile: what is left and does not see the one of them next to the middle.
@@ -224,7 +214,6 @@ void HiddenSamples::remove(Samples& samples, std::uint32_t index) {
   if (samples.size() == 0) return;
   const Chart& chart = plan_.charts.charts[index];
   hidden_.assign(samples.size(), false);
-  inside_.assign(samples.size(), 0);
   crossed_.clear();
   alike_.clear();
   which_.clear();
@@ -242,17 +231,13 @@ void HiddenSamples::remove(Samples& samples, std::uint32_t index) {
   ask(samples, which_);
   for (const Tile& tile : alike_)
     if (hidden_[tile.first]) std::fill_n(hidden_.begin() + tile.first, tile.count, true);
-  for (const Tile& tile : crossed_) {
-    hideMostlyHidden(samples, tile);
-    separate(samples, tile);
-  }
+  for (const Tile& tile : crossed_) separate(samples, tile);
   if (std::ranges::find(hidden_, true) != hidden_.end()) removeWhere(samples, hidden_);
 }
 
 void HiddenSamples::removeBesideOpen(Samples& samples, std::uint32_t index) {
   const Chart& chart = plan_.charts.charts[index];
   hidden_.assign(samples.size(), false);
-  inside_.assign(samples.size(), 0);
   crossed_.clear();
   which_.clear();
   for (const Tile& tile : samples.tiles) {

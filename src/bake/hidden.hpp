@@ -22,8 +22,8 @@ class HiddenSamples {
                 const SurfaceParts& parts);
 
   // Takes out the samples that are inside of a solid: from them, rays meet more backs than fronts
-  // of opaque one-sided surfaces; all of a texel's, if most of them are. Of a texel that something
-  // cuts in two those are left that see the one next to its middle.
+  // of opaque one-sided surfaces. Of a texel that something cuts in two those are left that see the
+  // one next to its middle.
   void remove(Samples& samples, std::uint32_t chart);
   // The same of texels of which another place is known not to be hidden, with fewer rays:
   // those that are not cut in two are not hidden. Of the others, the place next to the middle
@@ -39,7 +39,6 @@ class HiddenSamples {
   };
   void ask(const Samples& samples, std::span<const std::uint32_t> which);
   std::uint32_t nextToMiddle(const Samples& samples, std::uint32_t first, std::uint32_t end) const;
-  void hideMostlyHidden(const Samples& samples, const Samples::Tile& tile);
   void separate(const Samples& samples, const Samples::Tile& tile);
   void findSurface(const Samples& samples, const Chart& chart, const Samples::Tile& tile);
   bool isCrossed(const Samples& samples, const Chart& chart, const Samples::Tile& tile);
@@ -48,8 +47,7 @@ class HiddenSamples {
   const trace::RayScene& rays_;
   const Occluders& occluders_;
   const SurfaceParts& parts_;
-  std::vector<bool> hidden_;          // of the samples under way
-  std::vector<std::uint8_t> inside_;  // rays that say so of each
+  std::vector<bool> hidden_;  // of the samples under way
   std::vector<std::uint32_t> which_;
   std::vector<Samples::Tile> crossed_, alike_;
   // Of the tile that was asked about last, if it is not planar: of its triangles, in order.
