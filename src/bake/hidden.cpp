@@ -128,9 +128,7 @@ void HiddenSamples::ask(const Samples& samples, std::span<const std::uint32_t> w
   }
 }
 
-// Of a texel's samples that are not hidden; scene::kNone if all are. Of those that are as far from
-// the middle the first: it is of the same side in all texels that a wall cuts through their
-// middles.
+// Of a texel's samples that are not hidden; scene::kNone if all are.
 std::uint32_t HiddenSamples::nextToMiddle(const Samples& samples, std::uint32_t first,
                                           std::uint32_t end) const {
   vec3 middle(0.f);
@@ -140,10 +138,8 @@ std::uint32_t HiddenSamples::nextToMiddle(const Samples& samples, std::uint32_t 
   const auto distance = [&](std::uint32_t k) {
     return glm::distance(positionAt(samples, k), middle);
   };
-  const float alike = 0.01f * samples.texelSize;
   for (std::uint32_t k = first; k < end; ++k)
-    if (!hidden_[k] && (nearest == scene::kNone || distance(k) < distance(nearest) - alike))
-      nearest = k;
+    if (!hidden_[k] && (nearest == scene::kNone || distance(k) < distance(nearest))) nearest = k;
   return nearest;
 }
 
