@@ -2,6 +2,7 @@
 
 #include "bake/bake.hpp"
 
+#include <algorithm>
 #include <memory>
 
 #include "bake/bake_order.hpp"
@@ -17,6 +18,7 @@
 #include "core/parallel.hpp"
 #include "core/text.hpp"
 #include "core/time_text.hpp"
+#include "lightmap/lightmap.hpp"
 #include "scene/load.hpp"
 
 namespace lucerna::cli {
@@ -76,30 +78,44 @@ Result<bool> addCopies(Options& options, const bake::Plan& plan) {
       "the lightmap in '{}' is as it was, and some copies lie beside it: the same command writes "
       "them all",
       options.folder);
-  const Result<std::size_t> maps = bake::addCopies(plan, options.folder);
-  if (!maps && maps.error().kind != ErrorKind::Input) return maps.error();
-  if (!maps)
-    log::warning("{}; this bakes it again", maps.error().message);
-  else if (*maps > 0)
-    log::info("'{}' had all but copies of {}, which are written now", options.folder,
-              counted(*maps, "map"));
-  return maps.operator bool();
+  const Result<bake::AddedCopies> added = bake::addCopies(plan, options.folder);
+  if (!added && added.error().kind != ErrorKind::Input) return added.error();
+  if (!added)
+    log::warning("{}; this bakes it again", lightmap::faultOf(added.error()));
+  else if (added->maps > 0)
+    log::info("wrote copies ({}) of {}", bake::copiesText(added->copies),
+              counted(added->maps, "map"));
+  return added.operator bool();
 }
 
-// With --resume: whether nothing is left to do.
-Result<bool> isFinished(Options& options, const bake::Plan& plan) {
-  if (!options.resume) return false;
+Result<bool> isFinishedWith(Options& options, const bake::Plan& plan,
+                            const std::vector<bake::Encoding>& beside) {
   LUCERNA_TRY(sound, addCopies(options, plan));
   if (!sound) return false;
   const Result<bool> finished = bake::isFinished(plan, options.folder);
   if (finished && *finished) {
     clearWork(options, plan);
-    log::info("'{}' is finished; nothing is left to do", options.folder);
+    log::info("'{}' is finished{}; nothing is left to do", options.folder,
+              beside.empty() ? "" : ", and also has copies " + bake::copiesText(beside));
     return true;
   }
   if (!finished && finished.error().kind == ErrorKind::Usage) return finished.error();
-  if (!finished) log::warning("{}; this bakes it again", finished.error().message);
+  if (!finished) log::warning("{}; this bakes it again", lightmap::faultOf(finished.error()));
   return false;
+}
+
+// With --resume: whether nothing is left to do. Copies that are there and not asked for stay; if
+// it is baked again, they go.
+Result<bool> isFinished(Options& options, bake::Plan& plan) {
+  if (!options.resume) return false;
+  std::vector<bake::Encoding> all = plan.settings.encodings;
+  const std::vector<bake::Encoding> beside = bake::copiesBeside(plan, options.folder);
+  all.insert(all.end(), beside.begin(), beside.end());
+  std::ranges::sort(all);
+  std::swap(all, plan.settings.encodings);
+  auto finished = isFinishedWith(options, plan, beside);
+  std::swap(all, plan.settings.encodings);
+  return finished;
 }
 
 Status light(Options& options, const bake::Plan& plan, bake::BakeReport& report) {
@@ -261,10 +277,16 @@ void addFileFlags(CLI::App& command, Options& options) {
                                                : name == "bc6h" ? bake::Encoding::Bc6h
                                                                 : bake::Encoding::Png);
           },
-          "rgb9e5 or bc6h (KTX2) or png copies of the maps beside the EXR masters; several: A,B")
+          "rgb9e5 or bc6h (KTX2) or png copies of the maps beside the EXR masters; several joined "
+          "by commas: rgb9e5,png")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(oneOf({"rgb9e5", "bc6h", "png"}));
+      ->check(CLI::Validator(
+          [](const std::string& name) {
+            const std::string fault = oneOf({"rgb9e5", "bc6h", "png"})(name);
+            return fault.empty() ? fault : fault + "; several are joined by commas: rgb9e5,png";
+          },
+          "{rgb9e5,bc6h,png}"));
 }
 
 void addRunFlags(CLI::App& command, Options& options) {

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "bake/light_set.hpp"
+#include "bake/own_files.hpp"
 #include "core/log.hpp"
 #include "core/text.hpp"
 #include "lightmap/place.hpp"
@@ -179,7 +180,9 @@ Result<std::vector<Image>> mapsWith(const lightmap::Lightmap& lightmap,
 }  // namespace
 
 Result<std::vector<Image>> takeBakedLight(scene::Scene& scene, const RenderSettings& settings) {
-  LUCERNA_TRY(lightmap, lightmap::readLightmap(settings.lightmap));
+  auto read = lightmap::readLightmap(settings.lightmap);
+  if (!read) return bake::orStopped(read.error(), settings.lightmap);
+  const lightmap::Lightmap& lightmap = *read;
   LUCERNA_TRY_VOID(checkScene(lightmap, scene));
   LUCERNA_TRY_VOID(checkGroups(lightmap.manifest, settings.lightsOff));
   warnOfChangedLights(scene, lightmap.manifest);

@@ -99,6 +99,27 @@ Result<FolderLock> prepareFolder(const fs::path& folder, bool resume, const Shar
   return FolderLock::take(folder, FolderLock::Use::Light);
 }
 
+namespace {
+
+// What a finished bake differs in.
+Error isAnother(const Plan& plan, const lightmap::Manifest& manifest, const fs::path& folder) {
+  const auto there = settingsFrom(manifest.settings, "settings");
+  const std::string found = there ? differences(*there, plan.settings) : "";
+  const std::string& scene = plan.world.scene->name;
+  std::string what = fmt::format(
+      "'{}' as it was before it changed, or of another version of this program;", manifest.scene);
+  if (!found.empty())
+    what = "other settings: " + found + "; give the same, or";
+  else if (manifest.scene != scene)
+    what = fmt::format("another scene: '{}' there, '{}' here; give the same, or", manifest.scene,
+                       scene);
+  return error(ErrorKind::Usage,
+               "-o: '{}' holds a finished bake of {} bake without --resume to replace it",
+               folder.string(), what);
+}
+
+}  // namespace
+
 Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
   std::error_code none;
   if (!fs::exists(folder / kManifestFile, none)) return false;
@@ -111,10 +132,7 @@ Result<bool> isFinished(const Plan& plan, const fs::path& folder) {
   if (manifest->sceneHash != lightmap::hashText16(plan.hash) ||
       manifest->settings != settingsText(plan.settings)) {
     if (unfinished) return false;
-    return error(ErrorKind::Usage,
-                 "-o: '{}' holds a finished bake of another scene or other settings; bake without "
-                 "--resume to replace it",
-                 folder.string());
+    return isAnother(plan, *manifest, folder);
   }
   LUCERNA_TRY_VOID(lightmap::checkEntries(folder, lightmap::filesOf(*manifest)));
   return true;

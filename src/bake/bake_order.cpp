@@ -9,6 +9,7 @@
 #include "bake/shards.hpp"
 #include "core/file.hpp"
 #include "core/json_value.hpp"
+#include "core/text.hpp"
 
 namespace lucerna::bake {
 namespace {
@@ -123,7 +124,8 @@ std::string valueText(const Json& value) {
   return fmt::format("{}", fmt::join(list, ","));
 }
 
-// "--density is 10 there, 20 here"
+}  // namespace
+
 std::string differences(const BakeSettings& there, const BakeSettings& here) {
   std::vector<std::string> list;
   const auto compare = [&](const char* flag, const std::string& a, const std::string& b) {
@@ -140,6 +142,8 @@ std::string differences(const BakeSettings& there, const BakeSettings& here) {
   }
   return fmt::format("{}", fmt::join(list, ", "));
 }
+
+namespace {
 
 Status checkSame(const BakeOrder& there, const BakeOrder& here, const fs::path& folder) {
   const std::string work = (folder / kWorkFolder).string();
@@ -199,6 +203,34 @@ BakeOrder orderOf(const Plan& plan, const std::string& scene) {
 
 std::string settingsText(const BakeSettings& settings) {
   return settingsJson(settings).dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+Result<BakeSettings> settingsFrom(std::string_view text, const std::string& name) {
+  LUCERNA_TRY(document, JsonDocument::parse(text, name, ErrorKind::Input));
+  BakeSettings settings;
+  readSettings(document.root(), settings);
+  LUCERNA_TRY_VOID(document.status());
+  return settings;
+}
+
+std::vector<Encoding> furtherCopies(const std::string& there, const BakeSettings& here) {
+  const auto other = settingsFrom(there, "settings");
+  if (!other) return {};
+  BakeSettings same = *other;
+  same.encodings = here.encodings;
+  if (settingsText(same) != settingsText(here)) return {};
+  std::vector<Encoding> further = other->encodings;
+  std::erase_if(further, [&](Encoding copy) {
+    return std::ranges::find(here.encodings, copy) != here.encodings.end();
+  });
+  return further;
+}
+
+std::string copiesText(std::span<const Encoding> copies) {
+  std::vector<std::string> names;
+  for (const Encoding copy : copies)
+    names.push_back(kEncodings.begin()[static_cast<std::size_t>(copy)]);
+  return join(names);
 }
 
 bool lacksCopiesAlone(const std::string& there, const BakeSettings& here) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bake/plan.hpp"
 #include "core/result.hpp"
@@ -20,6 +22,17 @@ BakeOrder orderOf(const Plan& plan, const std::string& scene);
 
 // Settings as one JSON object's text.
 std::string settingsText(const BakeSettings& settings);
+
+// Errors (ErrorKind::Input): every fault, one a line.
+Result<BakeSettings> settingsFrom(std::string_view text, const std::string& name);
+
+// "--density is 10 there, 20 here"; empty: they are the same.
+std::string differences(const BakeSettings& there, const BakeSettings& here);
+
+// Of `there`, of another bake, the copies that `here` does not ask for, where all else is the same.
+std::vector<Encoding> furtherCopies(const std::string& there, const BakeSettings& here);
+// "rgb9e5, png"
+std::string copiesText(std::span<const Encoding> copies);
 
 // Whether `there`, of another bake, says the same but for copies that it does not ask for.
 bool lacksCopiesAlone(const std::string& there, const BakeSettings& here);

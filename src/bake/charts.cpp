@@ -8,6 +8,7 @@
 #include "bake/curved_charts.hpp"
 #include "bake/own_unwrap.hpp"
 #include "bake/pair_charts.hpp"
+#include "bake/triangle.hpp"
 #include "core/check.hpp"
 #include "core/parallel.hpp"
 #include "core/progress.hpp"
@@ -145,6 +146,16 @@ bool addOwn(Charts& result, const World& world, std::uint32_t index,
   return false;
 }
 
+// Of triangles in no chart, those with corners that are numbers.
+std::uint64_t withoutArea(const Part& part, std::span<const std::uint32_t> triangles) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(triangles, [&](std::size_t t) {
+    const auto isSound = [&](std::size_t k) {
+      return isFinite(part.positions[part.indices[3 * t + k]]);
+    };
+    return isSound(0) && isSound(1) && isSound(2);
+  }));
+}
+
 void addCurved(Charts& result, const World& world, std::uint32_t index,
                const ChartSettings& settings) {
   const WorldObject& object = world.objects[index];
@@ -152,7 +163,7 @@ void addCurved(Charts& result, const World& world, std::uint32_t index,
   CurvedSettings curved;
   curved.growth.longest = static_cast<float>(settings.mostSide) / settings.density;
   const CurvedCharts found = curvedCharts(part.positions, part.indices, curved);
-  result.degenerate += found.degenerate.size();
+  result.degenerate += withoutArea(part, found.degenerate);
   for (const CurvedChart& each : found.charts) {
     Chart chart{.object = index, .density = settings.density};
     for (std::size_t i = 0; i < each.triangles.size(); ++i)
@@ -171,7 +182,7 @@ void addPairs(Charts& result, const World& world, std::uint32_t index,
   const WorldObject& object = world.objects[index];
   const Part part = partOf(world, object);
   const PairCharts found = pairCharts(part.positions, part.indices);
-  result.degenerate += found.degenerate.size();
+  result.degenerate += withoutArea(part, found.degenerate);
   for (const PairChart& pair : found.charts) {
     Chart chart{.object = index, .density = settings.density};
     addTriangle(chart, object, pair.first, scaled(pair.firstCorners, pair.size));

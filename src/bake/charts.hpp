@@ -36,7 +36,7 @@ struct Chart {
 
 struct Charts {
   std::vector<Chart> charts;         // in the order of objects
-  std::uint64_t degenerate = 0;      // triangles without an area, or not finite; in no chart
+  std::uint64_t degenerate = 0;      // triangles without an area; in no chart, as those not finite
   std::uint64_t own = 0;             // objects that bring a set of coordinates that serves
   std::vector<std::string> unsound;  // why those that others bring do not, a sentence each
   std::uint64_t shrunk = 0;          // charts that had to get fewer texels a metre to fit

@@ -7,6 +7,7 @@
 #include "bake/cancelled.hpp"
 #include "bake/folder_lock.hpp"
 #include "bake/own_files.hpp"
+#include "bake/shards.hpp"
 #include "bake/write_lightmap.hpp"
 #include "core/check.hpp"
 #include "core/file.hpp"
@@ -111,18 +112,28 @@ Result<FileEntry> writeCopy(const Image& map, std::size_t index, Encoding encodi
   return lightmap::writeEntry(folder, name, bytes);
 }
 
-Result<std::size_t> addCopies(const Plan& plan, const fs::path& folder) {
-  if (!lackingCopies(plan, folder)) return 0;
+std::vector<Encoding> copiesBeside(const Plan& plan, const fs::path& folder) {
+  std::error_code none;
+  if (fs::exists(orderPath(folder), none)) return {};
+  const auto manifest = lightmap::readManifest(folder);
+  if (!manifest || manifest->sceneHash != lightmap::hashText16(plan.hash)) return {};
+  return furtherCopies(manifest->settings, plan.settings);
+}
+
+Result<AddedCopies> addCopies(const Plan& plan, const fs::path& folder) {
+  if (!lackingCopies(plan, folder)) return AddedCopies();
   LUCERNA_TRY(lock, FolderLock::take(folder, FolderLock::Use::Write));
   std::optional<Manifest> manifest = lackingCopies(plan, folder);  // as nobody changes it any more
-  if (!manifest) return 0;
+  if (!manifest) return AddedCopies();
+  LUCERNA_TRY(before, settingsFrom(manifest->settings, (folder / kManifestFile).string()));
   LUCERNA_TRY_VOID(lightmap::checkEntries(folder, lightmap::filesOf(*manifest)));
   LUCERNA_TRY_VOID(claimFiles(plan, folder));
   LUCERNA_TRY_VOID(completeMaps(plan, folder, *manifest));
   manifest->settings = settingsText(plan.settings);
   LUCERNA_TRY_VOID(writeText(folder / kManifestFile, lightmap::toJson(*manifest)));
   removeUnnamed(folder, *manifest);
-  return manifest->maps.size();
+  return AddedCopies{.maps = manifest->maps.size(),
+                     .copies = furtherCopies(manifest->settings, before)};
 }
 
 }  // namespace lucerna::bake

@@ -144,7 +144,7 @@ Result<Claimed> claimedIn(const fs::path& folder) {
     return error(ErrorKind::Usage,
                  "{}; only it says which files in '{}' are the lightmap's: remove those that you "
                  "do not need, or name another folder",
-                 manifest.error().message, folder.string());
+                 lightmap::faultOf(manifest.error()), folder.string());
   }
   return claimed;
 }
@@ -215,6 +215,14 @@ Status claimFiles(const Plan& plan, const fs::path& folder) {
   if (claimed) names.merge(*claimed);
   const Json document{{"lucerna", kFormat}, {"files", names}};
   return writeText(folder / kUnfinishedFile, document.dump(1) + "\n");
+}
+
+Error orStopped(const Error& found, const fs::path& folder) {
+  if (found.kind != ErrorKind::Input || !isThere(folder / kUnfinishedFile)) return found;
+  return error(ErrorKind::Input,
+               "{}; a bake that writes into '{}' was stopped, or is still at it: `lucerna bake ... "
+               "-o {} --resume` goes on",
+               lightmap::faultOf(found), folder.string(), folder.string());
 }
 
 void removeUnnamed(const fs::path& folder, const lightmap::Manifest& manifest) {

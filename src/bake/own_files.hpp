@@ -27,6 +27,10 @@ Status checkNoOthers(const std::filesystem::path& folder);
 // Lists what a bake of the plan may write. Errors as above, or the list cannot be written.
 Status claimFiles(const Plan& plan, const std::filesystem::path& folder);
 
+// The error of who cannot read DIR. Where it lies in a bake that was stopped while it wrote there,
+// it says that and how to go on.
+Error orStopped(const Error& error, const std::filesystem::path& folder);
+
 // Removes what is listed and the manifest does not name, then the list.
 void removeUnnamed(const std::filesystem::path& folder, const lightmap::Manifest& manifest);
 

@@ -6,6 +6,7 @@
 
 #include "bake/cancelled.hpp"
 #include "bake/plan_hash.hpp"
+#include "bake/triangle.hpp"
 #include "core/progress.hpp"
 #include "core/text.hpp"
 
@@ -127,6 +128,17 @@ bool anyEmits(const World& world) {
   });
 }
 
+// Triangles with a corner that is no number, those that are too large among them.
+std::size_t notFinite(const World& world) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < world.indices.size(); i += 3)
+    if (!isFinite(world.positions[world.indices[i]]) ||
+        !isFinite(world.positions[world.indices[i + 1]]) ||
+        !isFinite(world.positions[world.indices[i + 2]]))
+      ++count;
+  return count;
+}
+
 void addWarnings(Plan& plan) {
   const Charts& charts = plan.charts;
   if (plan.world.huge > 0)
@@ -134,10 +146,13 @@ void addWarnings(Plan& plan) {
         fmt::format("{} triangles are too large, with corners farther than {:.0f} km off: they are "
                     "left out and throw no shadow",
                     plan.world.huge, kFarthestCorner / 1000.f));
+  if (const std::size_t count = notFinite(plan.world); count > plan.world.huge)
+    plan.warnings.push_back(
+        fmt::format("{} triangles have corners that are no numbers: they are left out",
+                    count - plan.world.huge));
   if (charts.degenerate > 0)
     plan.warnings.push_back(
-        fmt::format("{} triangles have no area, are too large or not finite and get no light",
-                    charts.degenerate));
+        fmt::format("{} triangles have no area and get no light", charts.degenerate));
   constexpr std::size_t kMostNamed = 5;
   for (std::size_t i = 0; i < std::min(charts.unsound.size(), kMostNamed); ++i)
     plan.warnings.push_back(charts.unsound[i]);

@@ -104,8 +104,6 @@ void askLights(const Plan& plan, Preflight& result) {
 
 std::vector<std::string> Preflight::sentences() const {
   std::vector<std::string> list;
-  if (notFinite > 0)
-    list.push_back(fmt::format("{} triangles have corners that are no numbers", notFinite));
   if (duplicate > 0)
     list.push_back(
         fmt::format("{} triangles lie exactly on others; each takes texels of its own", duplicate));

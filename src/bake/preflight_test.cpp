@@ -77,6 +77,10 @@ TEST(Preflight, NamesWhatIsHuge) {
   EXPECT_EQ(found.huge, 2u);
   EXPECT_EQ(found.notFinite, 1u);
   EXPECT_THAT(plan->warnings, ::testing::Contains(HasSubstr("2 triangles are too large")));
+  EXPECT_THAT(
+      plan->warnings,
+      ::testing::Contains("1 triangles have corners that are no numbers: they are left out"));
+  EXPECT_THAT(plan->warnings, ::testing::Contains("1 triangles have no area and get no light"));
   EXPECT_THAT(inspected(oddScene()).huge, 0u);
 }
 

@@ -5,8 +5,25 @@
 #include "image/image_file.hpp"
 
 namespace lucerna::lightmap {
+namespace {
+
+constexpr std::string_view kMakeAgain = "`lucerna bake ... --resume` makes it again";
+
+}  // namespace
+
+std::string faultOf(const Error& error) {
+  std::string_view text = error.message;
+  for (const std::string_view step : {std::string_view("bake the scene again"), kMakeAgain})
+    if (text.ends_with(step)) text.remove_suffix(step.size() + 2);  // with "; " or ": "
+  return std::string(text);
+}
+
 Result<Bytes> readEntry(const std::filesystem::path& folder, const FileEntry& entry) {
   const std::filesystem::path path = folder / entry.file;
+  std::error_code none;
+  if (!std::filesystem::exists(path, none))
+    return error(ErrorKind::Input, "{}: is gone, and the manifest names it; {}", path.string(),
+                 kMakeAgain);
   LUCERNA_TRY(bytes, readFile(path));
   const std::string found = hashText16(hashBytes(bytes));
   if (found != entry.hash)

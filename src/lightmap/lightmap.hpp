@@ -31,6 +31,9 @@ Result<Layout> readLayout(const std::filesystem::path& folder, const Manifest& m
 Result<Image> readMap(const std::filesystem::path& folder, const Manifest& manifest,
                       std::size_t index);
 
+// What an error of these says, without the next step: for who names another.
+std::string faultOf(const Error& error);
+
 // One file of the folder, if its hash is right.
 Result<Bytes> readEntry(const std::filesystem::path& folder, const FileEntry& entry);
 Status checkEntry(const std::filesystem::path& folder, const FileEntry& entry);

@@ -343,10 +343,18 @@ class BakeTest(unittest.TestCase):
         self.assertIn("'f' is finished", run.stderr)
         self.assertTrue(json.loads(run.stdout)["finished"])
         self.assertEqual(self.hashes("f"), plain)
-        self.fails(2, self.bake("f", *SMALL, "--padding", 3, "--resume"), "another scene or other settings")
+        self.fails(2, self.bake("f", *SMALL, "--padding", 3, "--resume"),
+                   "other settings: --padding is 2 there, 3 here; give the same, or bake without --resume")
+        self.fails(2, self.bake("f", *SMALL, "--resume", scene="builtin:cornell?boxes=0"), "another scene: '")
         self.assertEqual(self.hashes("f"), plain)
         (self.folder / "f" / "map-000.exr").write_bytes(b"")
-        self.assertIn("map-000.exr: is damaged", self.ok(self.bake("f", *SMALL, "--resume")).stderr)
+        said = self.ok(self.bake("f", *SMALL, "--resume")).stderr
+        self.assertRegex(said, "map-000.exr: is damaged .* as the manifest says; this bakes it again\n")
+        (self.folder / "f" / "map-000.exr").unlink()
+        self.fails(3, self.lucerna("lightmap", "inspect", "f"),
+                   "map-000.exr: is gone, and the manifest names it; `lucerna bake ... --resume` makes it again")
+        self.assertIn("the manifest names it; this bakes it again",
+                      self.ok(self.bake("f", *SMALL, "--resume")).stderr)
         self.assertEqual(self.hashes("f"), plain)
 
     def test_copies_are_added_to_a_finished_bake(self):
@@ -354,19 +362,22 @@ class BakeTest(unittest.TestCase):
         self.whole("d", *SMALL)
         master = (self.folder / "d" / "map-000.exr").stat().st_mtime_ns
         run = self.ok(self.bake("d", *SMALL, "--encode", "bc6h", "--resume", "--json"))
-        self.assertIn("copies of 5 maps", run.stderr)
+        self.assertIn("wrote copies (bc6h) of 5 maps", run.stderr)
         self.assertNotIn("bake", json.loads(run.stdout))
         self.assertEqual(self.hashes("d"), self.whole("bc6h", *SMALL, "--encode", "bc6h"))
-        # One that is there is not made again; one too many is another bake.
+        # One that is there is not made again, whether it is asked for or not.
         copy = (self.folder / "d" / "map-000.bc6h.ktx2").stat().st_mtime_ns
-        self.ok(self.bake("d", *SMALL, "--encode", "png,rgb9e5,bc6h", "--resume"))
+        self.assertIn("wrote copies (rgb9e5, png) of 5 maps",
+                      self.ok(self.bake("d", *SMALL, "--encode", "png,rgb9e5", "--resume")).stderr)
         self.assertEqual(self.hashes("d"), plain)
         self.assertEqual((self.folder / "d" / "map-000.exr").stat().st_mtime_ns, master)
         self.assertEqual((self.folder / "d" / "map-000.bc6h.ktx2").stat().st_mtime_ns, copy)
-        for encodings in ([], ["--encode", "png"]):
-            self.fails(2, self.bake("d", *SMALL, *encodings, "--resume"), "other settings")
-        self.fails(2, self.bake("d", *SMALL, "--padding", 3, "--encode", "png", "--resume"), "other settings")
+        for encodings, others in (([], "rgb9e5, bc6h, png"), (["--encode", "png"], "rgb9e5, bc6h")):
+            self.assertIn(f"'d' is finished, and also has copies {others}; nothing is left to do",
+                          self.ok(self.bake("d", *SMALL, *encodings, "--resume")).stderr)
+        self.fails(2, self.bake("d", *SMALL, "--padding", 3, "--encode", "png", "--resume"), "--padding is 2 there")
         self.assertEqual(self.hashes("d"), plain)
+        self.assertEqual(list(self.whole("d", *SMALL)), list(self.whole("bare", *SMALL)))  # without --resume they go
         # A master that is damaged: all is baked again. A file of another's is in the way.
         self.whole("d", *SMALL)
         (self.folder / "d" / "map-001.exr").write_bytes(b"")
@@ -474,8 +485,8 @@ class BakeTest(unittest.TestCase):
         run = self.ok(self.bake("l", *SMALL, "--encode", "bc6h,rgb9e5,bc6h", "--lights", "a,b", "--resume",
                                 scene="lamps.json"))
         self.assertIn("nothing is left to do", run.stderr)
-        self.fails(2, self.bake("l", *SMALL, "--encode", "bc6h", "--lights", "a,b", "--resume", scene="lamps.json"),
-                   "other settings")
+        self.fails(2, self.bake("l", *SMALL, "--encode", "bc6h", "--lights", "a", "--resume", scene="lamps.json"),
+                   "--lights is a,b there, a here")
 
     def test_a_scene_file_that_changed_is_refused(self):
         lamp = {"kind": "point", "intensity": 100, "position": [0, 1, 0]}
@@ -619,6 +630,7 @@ class BakeTest(unittest.TestCase):
         before = self.hashes("d")
         for flags in ([], ["--resume"]):
             self.fails(2, self.bake("d", *SMALL, *flags), "d/manifest.json", "damaged", "another folder")
+            self.assertNotIn("bake the scene again", self.bake("d", *SMALL, *flags).stderr)
         self.assertEqual(self.hashes("d"), before)
 
     def test_a_finished_bake_leaves_an_unfinished_one_of_other_settings(self):
@@ -771,7 +783,8 @@ class BakeTest(unittest.TestCase):
                  "lights": [{"kind": "directional", "intensity": 3, "direction": [0, -1, 0]}]}))
             run = self.ok(self.bake(name, *SMALL, scene=f"{name}.json"))
             looks.append(json.loads(self.ok(self.lucerna("lightmap", "inspect", name, "--json")).stdout)["maps"])
-        self.assertIn("too large", run.stderr)
+        self.assertIn("2 triangles are too large", run.stderr)
+        self.assertIn("1 triangles have no area and get no light\n", run.stderr)
         self.assertEqual([each["irradiance"] for each in looks[0]], [each["irradiance"] for each in looks[1]])
         self.assertEqual([each["unsound"] for each in looks[1]], [0] * len(looks[1]))
         self.assertEqual(looks[1][0]["irradiance"]["min"], 0)
@@ -827,7 +840,6 @@ class BakeTest(unittest.TestCase):
         self.ok(self.lucerna("lightmap", "merge", "parts"))
         self.assertEqual(self.hashes("parts"), self.hashes("plain"))
         self.assertEqual(faults(self.manifest("plain"), schema()), [])
-        self.fails(2, self.bake("plain", *SMALL, "--resume", scene="lamps.json"), "other settings")
         table = json.loads(self.ok(self.lucerna("lightmap", "inspect", "plain", "-o", "look", "--json")).stdout)
         self.assertEqual([each["group"] for each in table["patches"]], ["desk"])
         self.assertTrue((self.folder / "look" / "patch-000-000.png").exists())
