@@ -26,7 +26,7 @@ struct PatchEntry {
   std::string group;
   FileEntry patch;
   std::string form;                         // "tiles" or "triangles"
-  std::uint64_t bytes = 0, otherBytes = 0;  // of this and of the form that was not kept
+  std::uint64_t bytes = 0, otherBytes = 0;  // of this; of the other form, see bake/make_patch
 };
 
 struct ObjectEntry {
