@@ -173,8 +173,10 @@ Status lightShard(const Plan& plan, const fs::path& folder, const Shard& shard,
   Progress progress("lighting", texels, "rays");
   FirstError failure;
   std::mutex counting;
-  constexpr std::size_t kGrain = 4;  // units that share what a thread makes first
-  parallelFor(missing.size(), kGrain, [&](std::size_t begin, std::size_t end) {
+  // Units that share what a thread makes first; one, where there are few for each thread.
+  const std::size_t grain =
+      std::clamp<std::size_t>(missing.size() / (8 * static_cast<std::size_t>(threadCount())), 1, 4);
+  parallelFor(missing.size(), grain, [&](std::size_t begin, std::size_t end) {
     UnitLighter lighter(plan, scene);
     std::uint64_t rays = 0;
     for (std::size_t i = begin; i < end; ++i) {
